@@ -1,0 +1,94 @@
+#include "engine/bricks.hpp"
+
+#include <stdexcept>
+
+namespace haff::engine {
+
+Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inverse_(box.inverse) {
+  if (particles > particle_mask)
+    throw std::length_error("the engine holds at most 2^28 - 1 particles");
+  const double volume = box.side * box.side * box.side;
+  const double cell = std::max(smallest_cell, std::cbrt(smallest_occupancy * volume / particles));
+  // Brick coordinates in pairs of cells; at least two bricks along an axis, or the two
+  // neighbours of a brick would be the same one.
+  bricks_ = static_cast<std::uint32_t>(
+      std::clamp(box.side / (2 * cell), 2.0, static_cast<double>(most_cells / 2)));
+  cells_ = 2 * bricks_;
+  cell_side_ = box.side / cells_;
+  lines_.resize(std::size_t{bricks_} * bricks_ * bricks_);
+  clear();
+}
+
+void Bricks::clear() {
+  std::fill(lines_.begin(), lines_.end(), Line{});
+  overflow_.clear();
+}
+
+Cell Bricks::locate(const Vector& position) const {
+  Cell cell{0};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const double at = std::clamp(position[axis] * inverse_ * cells_, 0.0, cells_ - 1.0);
+    cell.set(axis, static_cast<std::uint32_t>(at));
+  }
+  return cell;
+}
+
+void Bricks::insert(std::uint32_t particle, Cell cell) {
+  const std::uint32_t brick = brick_of(cell);
+  const std::uint32_t entry = occupied | half_of(cell) << half_shift | particle;
+  for (std::uint32_t& slot : lines_[brick].slot) {
+    if (slot == 0) {
+      slot = entry;
+      return;
+    }
+  }
+  overflow_[brick].push_back(entry);
+}
+
+std::uint32_t& Bricks::find(std::uint32_t brick, std::uint32_t particle) {
+  for (std::uint32_t& slot : lines_[brick].slot)
+    if ((slot & particle_mask) == particle && slot != 0) return slot;
+  for (std::uint32_t& entry : overflow_.at(brick))
+    if ((entry & particle_mask) == particle) return entry;
+  __builtin_unreachable();
+}
+
+void Bricks::remove(std::uint32_t particle, Cell cell) {
+  const std::uint32_t brick = brick_of(cell);
+  std::uint32_t& hole = find(brick, particle);
+  auto& slot = lines_[brick].slot;
+  if (slot.back() != 0) {
+    if (const auto extra = overflow_.find(brick); extra != overflow_.end()) {
+      hole = extra->second.back();
+      extra->second.pop_back();
+      if (extra->second.empty()) overflow_.erase(extra);
+      return;
+    }
+  }
+  std::uint32_t last = slots - 1;
+  while (slot[last] == 0) --last;
+  hole = slot[last];
+  slot[last] = 0;
+}
+
+Cell Bricks::cross(std::uint32_t particle, Cell cell, Face face) {
+  const unsigned axis = face / 2;
+  const std::uint32_t c = cell[axis];
+  Cell to = cell;
+  to.set(axis, (face & 1) != 0 ? (c + 1 == cells_ ? 0 : c + 1) : (c == 0 ? cells_ - 1 : c - 1));
+  if (brick_of(to) == brick_of(cell)) {
+    find(brick_of(cell), particle) ^= 1u << (half_shift + axis);
+  } else {
+    remove(particle, cell);
+    insert(particle, to);
+  }
+  return to;
+}
+
+const std::vector<std::uint32_t>& Bricks::overflow(std::uint32_t brick) const {
+  static const std::vector<std::uint32_t> none;
+  const auto found = overflow_.find(brick);
+  return found == overflow_.end() ? none : found->second;
+}
+
+}  // namespace haff::engine

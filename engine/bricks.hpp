@@ -1,0 +1,172 @@
+// Which particles are near: cells of at least one diameter, eight of them in one cache line.
+//
+// A brick is 2 x 2 x 2 cells. Its particles lie in 16 slots of one 64-byte line, filled from the
+// front; a slot says which particle and, in three bits, in which half of the brick along x, y, z.
+// The 27 cells around any cell lie in 8 bricks, and in each of them the wanted cells are "that half
+// along these axes": one AND and one comparison a slot. So a neighbourhood costs 8 lines, and a
+// crossing within a brick changes one bit.
+//
+// A brick with more than 16 particles (a dense cluster) keeps the rest in an overflow list that
+// nobody looks at unless the sixteenth slot is taken.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/memory.hpp"
+#include "engine/particle.hpp"
+
+namespace haff::engine {
+
+// Cell coordinates, ten bits an axis.
+struct Cell {
+  std::uint32_t packed;
+
+  std::uint32_t operator[](unsigned axis) const { return packed >> (10 * axis) & 1023; }
+  void set(unsigned axis, std::uint32_t value) {
+    packed = (packed & ~(1023u << (10 * axis))) | value << (10 * axis);
+  }
+  bool operator==(const Cell&) const = default;
+};
+
+// A face of a cell: 2 * axis, plus one if it is the upper one.
+using Face = std::uint32_t;
+
+struct Exit {
+  double time;
+  Face face;
+};
+
+class Bricks {
+ public:
+  static constexpr std::uint32_t slots = 16;
+  static constexpr std::uint32_t occupied = 1u << 31;
+  static constexpr unsigned half_shift = 28;  // three bits: which half along x, y, z
+  static constexpr std::uint32_t particle_mask = (1u << half_shift) - 1;
+
+  struct alignas(64) Line {
+    std::array<std::uint32_t, slots> slot;  // 0 where empty
+  };
+
+  // Some bricks, and in each the slots with (slot & care) == value.
+  template <std::size_t count>
+  struct Wanted {
+    std::array<std::uint32_t, count> brick;
+    std::array<std::uint32_t, count> care;
+    std::array<std::uint32_t, count> value;
+  };
+
+  Bricks(const Box& box, std::uint32_t particles);
+
+  // Cells of this size find every contact with the nearest image; smaller boxes cannot have them.
+  static bool fits(const Box& box) { return box.side >= 4 * smallest_cell; }
+
+  void clear();
+  Cell locate(const Vector& position) const;  // of a wrapped position
+  void insert(std::uint32_t particle, Cell cell);
+
+  // When and through which face the particle leaves its cell.
+  Exit exit(const Particle& p, Cell cell, double now) const;
+  // Moves the particle through that face; returns its new cell.
+  Cell cross(std::uint32_t particle, Cell cell, Face face);
+
+  // The eight bricks around a cell; the four that hold the nine cells beyond one of its faces.
+  Wanted<8> around(Cell cell) const;
+  Wanted<4> beyond(Cell cell, Face face) const;
+
+  const Line& line(std::uint32_t brick) const { return lines_[brick]; }
+  const std::vector<std::uint32_t>& overflow(std::uint32_t brick) const;
+
+  double cell_side() const { return cell_side_; }
+  std::size_t memory() const { return lines_.size() * sizeof(Line); }
+
+ private:
+  // A cell is a little larger than a diameter, so that rounding in the time of a crossing cannot
+  // let a contact come before it. [sigma]
+  static constexpr double smallest_cell = 1 + 1e-6;
+  // Fewest particles a cell holds on average: in a dilute gas larger cells are crossed less often.
+  static constexpr double smallest_occupancy = 0.25;
+  static constexpr std::uint32_t most_cells = 1024;  // along an axis
+
+  std::uint32_t brick_of(Cell cell) const {
+    return (((cell.packed >> 21) & 511) * bricks_ + ((cell.packed >> 11) & 511)) * bricks_ +
+           ((cell.packed >> 1) & 511);
+  }
+  static std::uint32_t half_of(Cell cell) {
+    return (cell[0] & 1) | (cell[1] & 1) << 1 | (cell[2] & 1) << 2;
+  }
+  std::uint32_t& find(std::uint32_t brick, std::uint32_t particle);
+  void remove(std::uint32_t particle, Cell cell);
+
+  double side_;           // of the box
+  double inverse_;        // of that
+  std::uint32_t cells_;   // along an axis, even
+  std::uint32_t bricks_;  // along an axis
+  double cell_side_;
+  HugeVector<Line> lines_;
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> overflow_;
+};
+
+[[gnu::always_inline]] inline Exit Bricks::exit(const Particle& p, Cell cell, double now) const {
+  Exit first{std::numeric_limits<double>::infinity(), 0};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const double v = p.velocity[axis];
+    const double x = p.position[axis] + v * (now - p.time);
+    double to_centre = (cell[axis] + 0.5) * cell_side_ - x;
+    to_centre -= std::rint(to_centre * inverse_) * side_;
+    const double distance = 0.5 * cell_side_ + (v > 0 ? to_centre : -to_centre);
+    const double time = now + std::max(distance, 0.0) / std::abs(v);
+    if (time < first.time) first = {time, 2 * axis + (v > 0 ? 1u : 0u)};
+  }
+  return first;
+}
+
+[[gnu::always_inline]] inline Bricks::Wanted<8> Bricks::around(Cell cell) const {
+  // Along each axis the own brick and the one on the side where the cell lies; of the latter only
+  // the half that touches.
+  const std::uint32_t last = bricks_ - 1;
+  std::uint32_t step[3];  // to the neighbour's number, which wraps
+  std::uint32_t stride = 1;
+  for (unsigned axis = 0; axis < 3; ++axis, stride *= bricks_) {
+    const std::uint32_t own = cell[axis] >> 1;
+    const std::uint32_t up = own == last ? 0 - last : 1;
+    const std::uint32_t down = own == 0 ? last : 0 - 1u;
+    step[axis] = ((cell[axis] & 1) != 0 ? up : down) * stride;
+  }
+  const std::uint32_t own = brick_of(cell);
+  const std::uint32_t touching = ~half_of(cell);
+  Wanted<8> wanted;
+  for (std::uint32_t n = 0; n < 8; ++n) {
+    const std::uint32_t brick = own + ((n & 1) != 0 ? step[0] : 0) + ((n & 2) != 0 ? step[1] : 0) +
+                                ((n & 4) != 0 ? step[2] : 0);
+    wanted.brick[n] = brick;
+    wanted.care[n] = occupied | n << half_shift;
+    wanted.value[n] = occupied | (n & touching) << half_shift;
+  }
+  return wanted;
+}
+
+[[gnu::always_inline]] inline Bricks::Wanted<4> Bricks::beyond(Cell cell, Face face) const {
+  const unsigned axis = face / 2;
+  const std::uint32_t c = cell[axis];
+  Cell layer = cell;
+  layer.set(axis, (face & 1) != 0 ? (c + 1 == cells_ ? 0 : c + 1) : (c == 0 ? cells_ - 1 : c - 1));
+  // Around a cell of the layer, those bricks that hold the layer itself; in them only its half.
+  const Wanted<8> all = around(layer);
+  const std::uint32_t bit = 1u << axis;
+  const std::uint32_t half = half_of(layer) & bit;
+  Wanted<4> wanted;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const std::uint32_t n = (k & ~(bit - 1)) << 1 | (k & (bit - 1));  // k with a zero at the axis
+    wanted.brick[k] = all.brick[n];
+    wanted.care[k] = all.care[n] | bit << half_shift;
+    wanted.value[k] = all.value[n] | half << half_shift;
+  }
+  return wanted;
+}
+
+}  // namespace haff::engine

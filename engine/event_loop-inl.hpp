@@ -1,0 +1,157 @@
+// The event loop: the whole simulation between two synchronizations.
+//
+// One event a particle: touching its partner or leaving its cell, whichever is first. What makes
+// that exact: whoever changes course looks at once for its earliest contact among all who are near
+// (`predict`), and whoever enters a cell looks at those who have come near by it (`cross`). Of the
+// two that will touch next, the one that looked last has seen the other. A partner that has
+// collided with somebody else meanwhile is noticed when the time comes, and one looks again.
+//
+// This file is compiled once for each SIMD target, hence its place in HWY_NAMESPACE.
+#if defined(HAFF_ENGINE_EVENT_LOOP_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HAFF_ENGINE_EVENT_LOOP_INL
+#undef HAFF_ENGINE_EVENT_LOOP_INL
+#else
+#define HAFF_ENGINE_EVENT_LOOP_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "engine/search.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace haff::engine::HWY_NAMESPACE {
+
+// `prefetching`: fetch into cache what coming events will touch. Pays beyond some 30 000 particles.
+template <class Search, class Physics, bool prefetching = false>
+class EventLoop {
+ public:
+  EventLoop(Gas& gas, const Physics& physics)
+      : gas_(gas),
+        physics_(physics),
+        search_(gas, physics),
+        now_(gas.clock.now),
+        collisions_(gas.clock.collisions) {}
+
+  // Goes on until the given number of collisions in all, or until that time.
+  void run(std::int64_t collisions, double end = never) {
+    while (collisions_ < collisions) {
+      const std::uint32_t p = gas_.calendar.next([this](std::uint32_t q) { return rank(q); });
+      if (p == Calendar::nobody) throw Breakdown("no particle will ever meet another again");
+      if constexpr (prefetching) look_ahead();
+      const Event& event = gas_.calendar[p];
+      if (event.time > end) {
+        now_ = end;
+        break;
+      }
+      now_ = event.time;
+      if (event.face != Event::contact)
+        cross(p);
+      else if (gas_.particles[event.partner].changes == event.partner_changes)
+        collide(p, event.partner);
+      else
+        predict(p);
+    }
+    gas_.clock.now = now_;
+    gas_.clock.collisions = collisions_;
+  }
+
+  // Everybody's first event, after a synchronization.
+  void predict_all() {
+    for (std::uint32_t p = 0; p < gas_.particles.size(); ++p) predict_fresh(p);
+  }
+
+ private:
+  void collide(std::uint32_t p, std::uint32_t q) {
+    physics_.collide(gas_.particles[p], gas_.particles[q], now_, gas_.box, gas_.clock.tally);
+    ++collisions_;
+    const auto [first, second] =
+        search_.around_both(p, gas_.calendar[p].cell, q, gas_.calendar[q].cell);
+    gas_.calendar[p].contact_time = never;
+    gas_.calendar[q].contact_time = never;
+    update(p, first);
+    update(q, second);
+  }
+
+  void cross(std::uint32_t p) {
+    Event& event = gas_.calendar[p];
+    event.cell = gas_.bricks.cross(p, event.cell, event.face);
+    update(p, search_.beyond(p, event.cell, event.face, now_));
+  }
+
+  void predict(std::uint32_t p) {
+    gas_.calendar[p].contact_time = never;
+    update(p, search_.around(p, gas_.calendar[p].cell, now_));
+  }
+
+  // The same for a particle whose record is of this very moment.
+  void predict_fresh(std::uint32_t p) {
+    gas_.calendar[p].contact_time = never;
+    update(p, search_.around_fresh(p, gas_.calendar[p].cell));
+  }
+
+  void update(std::uint32_t p, const Contact& contact) {
+    Event& event = gas_.calendar[p];
+    if (contact.time < event.contact_time ||
+        (contact.time == event.contact_time && contact.time < never &&
+         gas_.particles[contact.partner].id < gas_.particles[event.partner].id)) {
+      event.contact_time = contact.time;
+      event.partner = contact.partner;
+      event.partner_changes = gas_.particles[contact.partner].changes;
+    }
+    const Exit exit = search_.exit(p, event.cell, now_);
+    const bool touches = event.contact_time <= exit.time;
+    event.time = touches ? event.contact_time : exit.time;
+    event.face = touches ? Event::contact : exit.face;
+    gas_.calendar.schedule(p);
+  }
+
+  // What the events of the coming slots need, in three steps, each of which needs the one before
+  // to have arrived: the particle and its event; its partner, and the bricks around it; the
+  // particles in those. Into the second-level cache, which takes lines twice as fast as the first.
+  void look_ahead() {
+    const std::uint64_t slot = gas_.calendar.slot();
+    // Every slot once, though empty ones are jumped over; not more than the steps reach.
+    looked_at_ = std::max(looked_at_, slot - std::min<std::uint64_t>(slot, 3 * stride));
+    while (looked_at_ < slot) {
+      ++looked_at_;
+      gas_.calendar.look_into(looked_at_ + 3 * stride, [&](std::uint32_t p) {
+        __builtin_prefetch(gas_.particles.data() + p, 1, 2);
+        __builtin_prefetch(&gas_.calendar[p], 1, 2);
+      });
+      gas_.calendar.look_into(looked_at_ + 2 * stride, [&](std::uint32_t p) {
+        const Event& event = gas_.calendar[p];
+        search_.prefetch_bricks(event.cell);
+        if (event.face == Event::contact) {
+          __builtin_prefetch(gas_.particles.data() + event.partner, 1, 2);
+          __builtin_prefetch(&gas_.calendar[event.partner], 1, 2);
+        }
+      });
+      gas_.calendar.look_into(looked_at_ + stride, [&](std::uint32_t p) {
+        search_.prefetch_particles(gas_.calendar[p].cell);
+      });
+    }
+  }
+
+  // Order among events of the very same time: crossings, then contacts by their particles' ids.
+  std::uint64_t rank(std::uint32_t p) const {
+    const Event& event = gas_.calendar[p];
+    if (event.face != Event::contact) return 0;
+    const std::uint64_t a = gas_.particles[p].id;
+    const std::uint64_t b = gas_.particles[event.partner].id;
+    return 1 + (std::min(a, b) << 32 | std::max(a, b));
+  }
+
+  static constexpr std::uint32_t stride = 4;  // slots between two steps of look_ahead()
+
+  Gas& gas_;
+  Physics physics_;
+  std::uint64_t looked_at_ = 0;
+  Search search_;
+  double now_;
+  std::int64_t collisions_;
+};
+
+}  // namespace haff::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,32 @@
+// Everything a simulation holds: the particles, where they are near each other, what each does
+// next, and the clock. The event loop (event_loop-inl.hpp) moves it.
+#pragma once
+
+#include "engine/bricks.hpp"
+#include "engine/calendar.hpp"
+#include "engine/simulation.hpp"
+#include "engine/synchronize.hpp"
+
+namespace haff::engine {
+
+struct Gas {
+  explicit Gas(const State& state)
+      : box(state.box),
+        particles(state.particles()),
+        bricks(box, state.particles()),
+        calendar(state.particles()),
+        clock(to_clock(state)) {
+    copy_particles(state, particles);
+  }
+
+  Box box;
+  HugeVector<Particle> particles;
+  Bricks bricks;
+  Calendar calendar;
+  Clock clock;
+};
+
+// Cells and an empty calendar for a gas that has just been synchronized.
+void prepare(Gas& gas);
+
+}  // namespace haff::engine

@@ -1,0 +1,4 @@
+# find_package(haff) in another project: the library haff::engine.
+include(CMakeFindDependencyMacro)
+find_dependency(hwy)
+include(${CMAKE_CURRENT_LIST_DIR}/haff-targets.cmake)

@@ -1,0 +1,95 @@
+#include "engine/initial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/growth.hpp"
+#include "engine/random.hpp"
+#include "engine/simulation.hpp"
+#include "engine/synchronize.hpp"
+
+namespace haff::engine {
+namespace {
+
+// By Newton's method from above, where every step decreases until rounding stops it: std::cbrt is
+// not correctly rounded, and its last bit would be the trajectory's.
+double cube_root(double x) {
+  double root = std::max(x, 1.0);
+  for (;;) {
+    const double next = root - (root - x / (root * root)) / 3;
+    if (!(next < root)) return root;
+    root = next;
+  }
+}
+
+// Sites of a face-centred cubic lattice with `cells` cubic cells along an axis.
+Vector lattice_site(std::uint64_t site, std::uint64_t cells, double spacing) {
+  static constexpr Vector basis[4] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+  const std::uint64_t cell = site / 4;
+  const Vector& offset = basis[site % 4];
+  const Vector corner{static_cast<double>(cell % cells), static_cast<double>(cell / cells % cells),
+                      static_cast<double>(cell / (cells * cells))};
+  Vector position;
+  for (std::size_t k = 0; k < 3; ++k) position[k] = (corner[k] + offset[k] + 0.25) * spacing;
+  return position;
+}
+
+std::uint64_t cells_along(std::uint32_t count) {
+  std::uint64_t cells = 1;
+  while (4 * cells * cells * cells < count) ++cells;
+  return cells;
+}
+
+bool lattice_fits(std::uint32_t count, const Box& box) {
+  return box.side / static_cast<double>(cells_along(count)) / std::sqrt(2.0) >= 1;
+}
+
+std::vector<Vector> lattice_positions(std::uint32_t count, const Box& box) {
+  const std::uint64_t cells = cells_along(count);
+  const std::uint64_t sites = 4 * cells * cells * cells;
+  std::vector<Vector> positions(count);
+  for (std::uint64_t k = 0; k < count; ++k)  // vacant sites are spread evenly
+    positions[k] = lattice_site(k * sites / count, cells, box.side / static_cast<double>(cells));
+  return positions;
+}
+
+void set_energy(std::vector<Particle>& particles, double energy) {
+  const double factor = std::sqrt(energy / kinetic_energy(particles));
+  for (Particle& p : particles)
+    for (double& v : p.velocity) v *= factor;
+}
+
+void draw_velocities(std::vector<Particle>& particles, std::uint64_t seed) {
+  Random random(seed, Stream::velocities);
+  for (Particle& p : particles)
+    for (double& v : p.velocity) v = random.normal();
+  remove_momentum(particles);
+  set_energy(particles, 1);
+}
+
+}  // namespace
+
+State initial_state(double n, std::uint32_t count, std::uint64_t seed) {
+  const Box box(cube_root(count / n));
+  const std::vector<Vector> positions =
+      lattice_fits(count, box) ? lattice_positions(count, box) : grown_positions(count, box, seed);
+  std::vector<Particle> particles(count);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    particles[k].position = positions[k];
+    particles[k].id = k;
+  }
+  draw_velocities(particles, seed);
+  sort_in_space(particles, box);
+  return to_state(particles, Clock{}, box);
+}
+
+State restarted(const State& state) {
+  const Box box(state.box);
+  std::vector<Particle> particles(state.id.size());
+  copy_particles(state, particles);
+  set_energy(particles, 1);
+  return to_state(particles, Clock{}, box);
+}
+
+}  // namespace haff::engine

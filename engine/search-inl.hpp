@@ -1,0 +1,277 @@
+// Who does a particle touch first? All candidates at once, branch-free.
+//
+// A neighbourhood's slots are filtered and compressed to a list of some 13 candidates, whose
+// records are loaded four at a time, transposed in registers to one vector a coordinate, and solved
+// by the operations of InelasticSpheres::contact_time() (contact.hpp), one for one and unfused, so
+// the bits are the same for any vector width. A scalar test with early exits spends its time on
+// mispredicted branches: this doubled the whole engine's speed.
+#if defined(HAFF_ENGINE_SEARCH_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HAFF_ENGINE_SEARCH_INL
+#undef HAFF_ENGINE_SEARCH_INL
+#else
+#define HAFF_ENGINE_SEARCH_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "engine/search.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace haff::engine::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET == HWY_SCALAR
+using SimdSearch = PlainSearch<InelasticSpheres>;  // processors without vectors worth the name
+#else
+
+class SimdSearch {
+ public:
+  SimdSearch(const Gas& gas, const InelasticSpheres&) : gas_(gas) {}
+
+  HWY_INLINE Contact around(std::uint32_t p, Cell cell, double now) {
+    const std::size_t count = gather(p, gas_.bricks.around(cell), list_);
+    return first_of<false>(p, count, list_.data(), now);
+  }
+  HWY_INLINE Contact around_fresh(std::uint32_t p, Cell cell) {
+    const std::size_t count = gather(p, gas_.bricks.around(cell), list_);
+    return first_of<true>(p, count, list_.data(), gas_.particles[p].time);
+  }
+  HWY_INLINE Contact beyond(std::uint32_t p, Cell cell, Face face, double now) {
+    const std::size_t count = gather(p, gas_.bricks.beyond(cell, face), list_);
+    return first_of<false>(p, count, list_.data(), now);
+  }
+
+  // Both partners of a collision. Gathering for both before solving for either lets the processor
+  // overlap the two.
+  HWY_INLINE std::pair<Contact, Contact> around_both(std::uint32_t p, Cell p_cell, std::uint32_t q,
+                                                     Cell q_cell) {
+    const std::size_t p_count = gather(p, gas_.bricks.around(p_cell), list_);
+    const std::size_t q_count = gather(q, gas_.bricks.around(q_cell), other_list_);
+    const double now = gas_.particles[p].time;
+    const Contact first = first_of<true>(p, p_count, list_.data(), now);
+    const Contact second = first_of<true>(q, q_count, other_list_.data(), now);
+    return {first, second};
+  }
+
+  HWY_INLINE void prefetch_bricks(Cell cell) const {
+    for (const std::uint32_t brick : gas_.bricks.around(cell).brick)
+      __builtin_prefetch(&gas_.bricks.line(brick), 0, 2);
+  }
+  HWY_INLINE void prefetch_particles(Cell cell) {
+    const std::size_t count = gather(0, gas_.bricks.around(cell), list_);
+    for (std::size_t k = 0; k < count; ++k)
+      __builtin_prefetch(gas_.particles.data() + list_[k], 0, 2);
+  }
+
+  // Bricks::exit() for the three axes at once.
+  HWY_INLINE Exit exit(std::uint32_t p, Cell cell, double now) const {
+#if HWY_CAP_GE256
+    const Particle& own = gas_.particles[p];
+    const Reals d;
+    const hn::Rebind<std::int32_t, Reals> d32;
+    alignas(16) static constexpr std::int32_t shifts[4] = {0, 10, 20, 30};
+    const auto axes = hn::FirstN(d, 3);
+    const V v = hn::IfThenElseZero(axes, hn::Load(d, own.velocity.data()));
+    const V x = hn::Add(hn::Load(d, own.position.data()), hn::Mul(v, hn::Set(d, now - own.time)));
+    const auto packed = hn::Set(d32, static_cast<std::int32_t>(cell.packed));
+    const V coordinate =
+        hn::PromoteTo(d, hn::And(hn::Shr(packed, hn::Load(d32, shifts)), hn::Set(d32, 1023)));
+    const Bricks& bricks = gas_.bricks;
+    V to_centre =
+        hn::Sub(hn::Mul(hn::Add(coordinate, hn::Set(d, 0.5)), hn::Set(d, bricks.cell_side())), x);
+    to_centre =
+        hn::Sub(to_centre, hn::Mul(hn::Round(hn::Mul(to_centre, hn::Set(d, gas_.box.inverse))),
+                                   hn::Set(d, gas_.box.side)));
+    const V ahead = hn::Xor(to_centre, hn::And(v, hn::SignBit(d)));
+    // Not zero: 0 / 0 would be taken for a time.
+    const V distance =
+        hn::Max(hn::Add(hn::Set(d, 0.5 * bricks.cell_side()), ahead), hn::Set(d, 1e-300));
+    const V time = hn::IfThenElse(axes, hn::Div(distance, hn::Abs(v)), hn::Set(d, never));
+    const V first = hn::MinOfLanes(d, time);
+    std::uint8_t bits = 0;
+    hn::StoreMaskBits(d, hn::Eq(time, first), &bits);
+    const auto axis = static_cast<unsigned>(std::countr_zero(bits));
+    return {now + hn::GetLane(first), 2 * axis + (own.velocity[axis] > 0 ? 1u : 0u)};
+#else
+    return gas_.bricks.exit(gas_.particles[p], cell, now);
+#endif
+  }
+
+ private:
+  using Slots = hn::CappedTag<std::uint32_t, 8>;
+  using Reals = hn::CappedTag<double, 4>;
+  using V = hn::Vec<Reals>;
+  static constexpr std::size_t slack = 16;  // compressed stores write whole vectors
+
+  using List = std::vector<std::uint32_t>;
+
+  // The particles in the wanted cells; after the last one, p itself (nobody touches itself) to fill
+  // a vector.
+  template <std::size_t bricks>
+  HWY_INLINE std::size_t gather(std::uint32_t p, const Bricks::Wanted<bricks>& wanted, List& list) {
+    const Slots d;
+    std::uint32_t* candidates = list.data();
+    std::size_t count = 0;
+    const auto particle = hn::Set(d, Bricks::particle_mask);
+    const Bricks::Line* const lines = &gas_.bricks.line(0);
+#pragma GCC unroll 8
+    for (std::size_t n = 0; n < bricks; ++n) {
+      const std::uint32_t* slot = lines[wanted.brick[n]].slot.data();
+      const auto care = hn::Set(d, wanted.care[n]);
+      const auto value = hn::Set(d, wanted.value[n]);
+      const auto take_half = [&](std::size_t from) HWY_ATTR __attribute__((always_inline)) {
+        for (std::size_t k = from; k < from + 8; k += hn::MaxLanes(d)) {
+          const auto slots = hn::Load(d, slot + k);
+          std::uint8_t bits = 0;
+          hn::StoreMaskBits(d, hn::Eq(hn::And(slots, care), value), &bits);
+          const auto lanes = hn::IndicesFromVec(d, hn::Load(d, compress_table.lanes[bits]));
+          hn::StoreU(hn::TableLookupLanes(hn::And(slots, particle), lanes), d, candidates + count);
+          count += static_cast<std::size_t>(std::popcount(bits));
+        }
+      };
+      take_half(0);
+      if (HWY_UNLIKELY(slot[8] != 0)) {  // slots are filled from the front
+        take_half(8);
+        if (HWY_UNLIKELY(slot[15] != 0)) {
+          count = gather_overflow(wanted.brick[n], wanted.care[n], wanted.value[n], list, count);
+          candidates = list.data();
+        }
+      }
+    }
+    hn::StoreU(hn::Set(d, p), d, candidates + count);
+    return count;
+  }
+
+  HWY_NOINLINE std::size_t gather_overflow(std::uint32_t brick, std::uint32_t care,
+                                           std::uint32_t value, List& list, std::size_t count) {
+    for (const std::uint32_t slot : gas_.bricks.overflow(brick))
+      if ((slot & care) == value) {
+        list[count++] = slot & Bricks::particle_mask;
+        if (list.size() < count + 8 * Bricks::slots + slack) list.resize(2 * list.size());
+      }
+    return count;
+  }
+
+  struct Records {
+    V x, y, z, t, vx, vy, vz;
+  };
+
+  // The records of as many candidates as a vector has lanes, one coordinate a vector.
+  HWY_INLINE Records load(const std::uint32_t* candidate) const {
+    const Reals d;
+    const Particle* const all = gas_.particles.data();
+    const auto pair = [&](std::size_t k, V & low, V & high) HWY_ATTR
+        __attribute__((always_inline)) {
+      // Of each record two neighbouring doubles; records 0, 2 and 1, 3 share a vector.
+      const auto at = [&](std::size_t lane) HWY_ATTR {
+        return hn::Load(hn::FixedTag<double, 2>(),
+                        reinterpret_cast<const double*>(all + candidate[lane]) + k);
+      };
+#if HWY_CAP_GE256
+      const V even = hn::Combine(d, at(2), at(0));
+      const V odd = hn::Combine(d, at(3), at(1));
+#else
+      const V even = at(0);
+      const V odd = at(1);
+#endif
+      low = hn::InterleaveLower(d, even, odd);
+      high = hn::InterleaveUpper(d, even, odd);
+    };
+    Records r;
+    V names;
+    pair(0, r.x, r.y);
+    pair(2, r.z, r.t);
+    pair(4, r.vx, r.vy);
+    pair(6, r.vz, names);
+    return r;
+  }
+
+  // The first contact with one of the candidates. `fresh`: the particle's own time is now, so no
+  // other's is later and half the work falls away.
+  template <bool fresh>
+  HWY_INLINE Contact first_of(std::uint32_t p, std::size_t count, const std::uint32_t* candidates,
+                              double now) {
+    Contact best;
+    for (std::size_t from = 0; from < count; from += block) {
+      const std::uint32_t* const some = candidates + from;
+      // Of a dozen candidates one or two touch: only for those the root is taken.
+      for (std::uint64_t touching = meet<fresh>(p, std::min(count - from, block), some, now);
+           touching != 0; touching &= touching - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(touching));
+        const double flight = std::max(gap_[k], 0.0) / (std::sqrt(discriminant_[k]) - approach_[k]);
+        keep_first(best, {(fresh ? now : start_[k]) + flight, some[k]}, gas_.particles);
+      }
+    }
+    return best;
+  }
+
+  // Bit k: will candidate k touch? Fills approach_, gap_, discriminant_ and start_.
+  template <bool fresh>
+  HWY_INLINE std::uint64_t meet(std::uint32_t p, std::size_t count, const std::uint32_t* candidates,
+                                double now) {
+    const Reals d;
+    const Particle& own = gas_.particles[p];
+    const V side = hn::Set(d, gas_.box.side);
+    const V inverse = hn::Set(d, gas_.box.inverse);
+    const V now_v = hn::Set(d, now);
+    const V own_time = hn::Set(d, own.time);
+    std::uint64_t touching = 0;
+    for (std::size_t k = 0; k < count; k += hn::MaxLanes(Reals())) {
+      const Records other = load(candidates + k);
+      const V start = fresh ? now_v : hn::Max(own_time, other.t);
+      const V other_flight = hn::Sub(start, other.t);
+      const V own_flight = hn::Sub(start, own_time);
+      const V to_now = hn::Sub(now_v, start);
+      const auto relative = [&](std::size_t axis, V position, V velocity, V & r, V & v) HWY_ATTR
+          __attribute__((always_inline)) {
+        const V own_v = hn::Set(d, own.velocity[axis]);
+        V own_x = hn::Set(d, own.position[axis]);
+        if constexpr (!fresh) own_x = hn::Add(own_x, hn::Mul(own_v, own_flight));
+        r = hn::Sub(hn::Add(position, hn::Mul(velocity, other_flight)), own_x);
+        v = hn::Sub(velocity, own_v);
+        const V seen = fresh ? r : hn::Add(r, hn::Mul(v, to_now));
+        r = hn::Sub(r, hn::Mul(hn::Round(hn::Mul(seen, inverse)), side));
+      };
+      V rx, ry, rz, vx, vy, vz;
+      relative(0, other.x, other.vx, rx, vx);
+      relative(1, other.y, other.vy, ry, vy);
+      relative(2, other.z, other.vz, rz, vz);
+      const V approach = dot(rx, ry, rz, vx, vy, vz);
+      const V gap = hn::Sub(dot(rx, ry, rz, rx, ry, rz), hn::Set(d, 1.0));
+      const V discriminant =
+          hn::Sub(hn::Mul(approach, approach), hn::Mul(dot(vx, vy, vz, vx, vy, vz), gap));
+      std::uint8_t bits = 0;
+      hn::StoreMaskBits(
+          d, hn::And(hn::Lt(approach, hn::Zero(d)), hn::Ge(discriminant, hn::Zero(d))), &bits);
+      touching |= std::uint64_t{bits} << k;
+      hn::Store(approach, d, approach_ + k);
+      hn::Store(gap, d, gap_ + k);
+      hn::Store(discriminant, d, discriminant_ + k);
+      if constexpr (!fresh) hn::Store(start, d, start_ + k);
+    }
+    return touching;
+  }
+
+  static HWY_INLINE V dot(V ax, V ay, V az, V bx, V by, V bz) {
+    return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
+  }
+
+  static constexpr std::size_t block = 64;
+
+  const Gas& gas_;
+  List list_ = List(8 * Bricks::slots + slack);
+  List other_list_ = list_;
+  alignas(64) double approach_[block];
+  alignas(64) double gap_[block];
+  alignas(64) double discriminant_[block];
+  alignas(64) double start_[block];
+};
+
+#endif
+
+}  // namespace haff::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,104 @@
+// Who does a particle touch first? The plain answers; search-inl.hpp has the fast one.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "engine/contact.hpp"
+#include "engine/gas.hpp"
+
+namespace haff::engine {
+
+struct Contact {
+  double time = never;
+  std::uint32_t partner = 0;
+};
+
+// Row m: the places of the set bits of m, which moves the wanted lanes of a vector to its front.
+// (Highway's own Compress copies its table to the stack at each call when built by GCC 12: 40 % of
+// a prediction.)
+struct CompressTable {
+  constexpr CompressTable() {
+    for (std::uint32_t mask = 0; mask < 256; ++mask)
+      for (std::uint32_t bit = 0, next = 0; bit < 8; ++bit)
+        if ((mask >> bit & 1) != 0) lanes[mask][next++] = bit;
+  }
+  alignas(32) std::uint32_t lanes[256][8] = {};
+};
+inline constexpr CompressTable compress_table;
+
+// The earlier contact; at the very same time the one with the smaller id.
+inline void keep_first(Contact& best, const Contact& other, const HugeVector<Particle>& particles) {
+  if (other.time < best.time || (other.time == best.time && other.time < never &&
+                                 particles[other.partner].id < particles[best.partner].id))
+    best = other;
+}
+
+// Candidates: who is in the wanted cells, as the nearest image.
+struct Near {
+  template <std::size_t count, class Visit>
+  static void visit(const Gas& gas, const Bricks::Wanted<count>& wanted, const Visit& visit) {
+    for (std::size_t n = 0; n < count; ++n) {
+      const auto take = [&](std::uint32_t slot) {
+        if ((slot & wanted.care[n]) == wanted.value[n])
+          visit(slot & Bricks::particle_mask, Vector{0, 0, 0});
+      };
+      for (const std::uint32_t slot : gas.bricks.line(wanted.brick[n]).slot) take(slot);
+      for (const std::uint32_t slot : gas.bricks.overflow(wanted.brick[n])) take(slot);
+    }
+  }
+};
+
+// Candidates in a box so small that a particle can meet two images of another: everybody, in each
+// of the 27 boxes around the nearest image.
+struct Everybody {
+  template <std::size_t count, class Visit>
+  static void visit(const Gas& gas, const Bricks::Wanted<count>&, const Visit& visit) {
+    for (std::uint32_t q = 0; q < gas.particles.size(); ++q)
+      for (int image = 0; image < 27; ++image)
+        visit(q, Vector{image % 3 - 1.0, image / 3 % 3 - 1.0, image / 9 - 1.0});
+  }
+};
+
+// One candidate after the other. The same bits as the SIMD search, which is tested against it.
+template <class Physics, class Candidates = Near>
+class PlainSearch {
+ public:
+  PlainSearch(const Gas& gas, const Physics& physics) : gas_(gas), physics_(physics) {}
+
+  Contact around(std::uint32_t p, Cell cell, double now) const {
+    return first_in(p, gas_.bricks.around(cell), now);
+  }
+  Contact around_fresh(std::uint32_t p, Cell cell) const {
+    return around(p, cell, gas_.particles[p].time);
+  }
+  std::pair<Contact, Contact> around_both(std::uint32_t p, Cell p_cell, std::uint32_t q,
+                                          Cell q_cell) const {
+    return {around_fresh(p, p_cell), around_fresh(q, q_cell)};
+  }
+  Contact beyond(std::uint32_t p, Cell cell, Face face, double now) const {
+    return first_in(p, gas_.bricks.beyond(cell, face), now);
+  }
+  Exit exit(std::uint32_t p, Cell cell, double now) const {
+    return gas_.bricks.exit(gas_.particles[p], cell, now);
+  }
+  void prefetch_bricks(Cell) const {}
+  void prefetch_particles(Cell) const {}
+
+ private:
+  template <std::size_t count>
+  Contact first_in(std::uint32_t p, const Bricks::Wanted<count>& wanted, double now) const {
+    Contact best;
+    Candidates::visit(gas_, wanted, [&](std::uint32_t q, const Vector& image) {
+      if (q == p) return;
+      const Encounter pair(gas_.particles[p], gas_.particles[q], now, gas_.box, image);
+      keep_first(best, {physics_.contact_time(pair), q}, gas_.particles);
+    });
+    return best;
+  }
+
+  const Gas& gas_;
+  Physics physics_;
+};
+
+}  // namespace haff::engine

@@ -1,0 +1,78 @@
+// The simulation of one gas: give it a state, let it collide, look at it, take the state back.
+//
+//   Simulation gas({.restitution = 0.8}, state);
+//   gas.run_to(collisions_at(tau, N));
+//
+// The trajectory depends on the state and the model alone: not on how run_to() was called, on
+// the SIMD width, or on the size of cells. Stopping at a synchronization, storing state() and
+// starting again from it continues the same trajectory bit for bit.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "engine/state.hpp"
+
+namespace haff::engine {
+
+struct Model {
+  double restitution = 1;  // e, normal
+};
+
+// Which implementation looks for contacts. All give the same bits.
+enum class Prediction { simd, scalar };
+
+// The physics has broken: overlap, NaN, time running backwards. The message says where.
+struct Breakdown : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Pair collisions after which tau (collisions per particle) is reached: ceil(tau N / 2).
+std::int64_t collisions_at(double tau, std::uint32_t particles);
+
+// The gas is synchronized whenever tau is a multiple of this, and only there can it be stopped
+// and stored. Part of the trajectory's definition: changing it changes bits. [collisions/particle]
+inline constexpr double synchronization_period = 10;
+
+class Simulation {
+ public:
+  Simulation(const Model& model, const State& start, Prediction prediction = Prediction::simd);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  // Go on until exactly so many pair collisions have happened in all, synchronizing on the way
+  // whenever that is due. Throws Breakdown.
+  void run_to(std::int64_t collisions);
+
+  std::uint32_t particles() const;
+  std::int64_t collisions() const;
+  double time() const;        // true time of the last event
+  bool synchronized() const;  // may state() be called?
+
+  // Scaled velocities, true velocity = velocity * 2^-exponent, in an order that depends on the
+  // trajectory alone. Positions at time(), in [0, L), in the same order.
+  std::vector<Vector> velocities() const;
+  std::vector<Vector> positions() const;
+  int exponent() const;
+
+  // What collisions did since the last call.
+  Tally take_tally();
+
+  // The state, only at a synchronization (throws std::logic_error elsewhere).
+  State state() const;
+
+  std::size_t memory() const;  // bytes held
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> self_;
+};
+
+// Name of the SIMD instruction set in use, e.g. "AVX2".
+std::string simd_target();
+
+}  // namespace haff::engine

@@ -1,0 +1,44 @@
+// The state of a gas at a synchronization: every particle at the same instant.
+//
+// This is what a checkpoint holds, what a simulation starts from and what it returns. Units
+// (physics: m = sigma = 1, energy per particle 1 at the start): length sigma, mass m, time
+// sigma sqrt(m/E(0)). Velocities are kept near thermal speed 1 for ever: the true velocity is
+// velocity * 2^-exponent, exactly (see synchronize.hpp).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace haff::engine {
+
+using Vector = std::array<double, 3>;
+
+// What collisions did since the tally was last taken, in the units of the velocities beside it.
+struct Tally {
+  double dissipated = 0;  // kinetic energy lost, summed collision by collision
+  double virial = 0;      // sum of sigma * |momentum transfer|; p = nT + virial / (d V time)
+
+  bool operator==(const Tally&) const = default;
+};
+
+struct State {
+  double box = 0;  // side L of the periodic cube
+
+  // One entry a particle, in spatial order (synchronize.hpp). `id` names a particle for ever; its
+  // place in these arrays changes.
+  std::vector<std::uint32_t> id;
+  std::vector<Vector> position;  // in [0, L)
+  std::vector<Vector> velocity;  // scaled by 2^exponent
+  int exponent = 0;
+
+  std::int64_t collisions = 0;  // pair collisions C since the start; tau = 2 C / N
+  double time = 0;              // true time since the start
+  Tally tally;                  // in scaled units, like the velocities
+  double momentum_removed = 0;  // largest |sum of m v| / (sqrt(N) * rms speed) zeroed so far
+
+  std::uint32_t particles() const { return static_cast<std::uint32_t>(id.size()); }
+  bool operator==(const State&) const = default;
+};
+
+}  // namespace haff::engine

@@ -1,0 +1,157 @@
+#include "engine/synchronize.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/contact.hpp"
+#include "engine/simulation.hpp"
+
+namespace haff::engine {
+namespace {
+
+// Velocities are doubled when the energy per particle has fallen below this. [scaled units]
+constexpr double smallest_energy = 0.25;
+
+// The ten low bits of x, two places apart.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | (x << 16)) & 0x030000ff;
+  x = (x | (x << 8)) & 0x0300f00f;
+  x = (x | (x << 4)) & 0x030c30c3;
+  x = (x | (x << 2)) & 0x09249249;
+  return x;
+}
+
+std::uint64_t place_on_curve(const Vector& position, const Box& box) {
+  std::uint64_t place = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto cell = static_cast<std::int64_t>(position[k] * box.inverse * 1024);
+    place |= spread(static_cast<std::uint64_t>(std::clamp<std::int64_t>(cell, 0, 1023))) << k;
+  }
+  return place;
+}
+
+void rescale(std::span<Particle> particles, Clock& clock) {
+  int doublings = 0;
+  double energy = kinetic_energy(particles);
+  if (energy <= 0) return;
+  for (; energy < smallest_energy; energy *= 4) ++doublings;
+  if (doublings == 0) return;
+  const double factor = std::ldexp(1.0, doublings);
+  for (Particle& p : particles)
+    for (double& v : p.velocity) v *= factor;
+  clock.exponent += doublings;
+  clock.tally.virial *= factor;
+  clock.tally.dissipated *= factor * factor;
+}
+
+}  // namespace
+
+Vector wrapped(Vector position, const Box& box) {
+  for (double& x : position) {
+    x -= std::floor(x * box.inverse) * box.side;
+    if (x < 0) x += box.side;  // rounding can leave x a hair outside, on either side
+    if (x >= box.side) x -= box.side;
+  }
+  return position;
+}
+
+double Clock::time() const {
+  return start + std::ldexp(now, exponent);
+}
+
+void synchronize(std::span<Particle> particles, Clock& clock, const Box& box) {
+  for (Particle& p : particles) {
+    advance(p, clock.now);
+    p.position = wrapped(p.position, box);
+    p.time = 0;
+    p.changes = 0;
+  }
+  clock.start = clock.time();
+  clock.now = 0;
+  clock.momentum_removed = std::max(clock.momentum_removed, remove_momentum(particles));
+  rescale(particles, clock);
+  sort_in_space(particles, box);
+}
+
+void sort_in_space(std::span<Particle> particles, const Box& box) {
+  std::vector<std::uint64_t> order(particles.size());
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    order[k] = place_on_curve(particles[k].position, box) << 32 | k;
+  std::sort(order.begin(), order.end());
+
+  // Permuted in place, cycle by cycle: a second copy of the particles would be the largest
+  // allocation of a run.
+  constexpr std::uint64_t index = 0xffffffff;
+  for (std::size_t first = 0; first < particles.size(); ++first) {
+    if ((order[first] & index) == first) continue;
+    const Particle saved = particles[first];
+    std::size_t hole = first;
+    for (;;) {
+      const std::size_t source = order[hole] & index;
+      order[hole] = hole;
+      if (source == first) break;
+      particles[hole] = particles[source];
+      hole = source;
+    }
+    particles[hole] = saved;
+  }
+}
+
+double remove_momentum(std::span<Particle> particles) {
+  Vector total{};
+  for (const Particle& p : particles)
+    for (std::size_t k = 0; k < 3; ++k) total[k] += p.velocity[k];
+  const auto count = static_cast<double>(particles.size());
+  for (Particle& p : particles)
+    for (std::size_t k = 0; k < 3; ++k) p.velocity[k] -= total[k] / count;
+  const double energy = kinetic_energy(particles);
+  return energy > 0 ? std::sqrt(dot(total, total) / (count * 2 * energy)) : 0;
+}
+
+double kinetic_energy(std::span<const Particle> particles) {
+  double sum = 0;
+  for (const Particle& p : particles) sum += dot(p.velocity, p.velocity);
+  return 0.5 * sum / static_cast<double>(particles.size());
+}
+
+State to_state(std::span<const Particle> particles, const Clock& clock, const Box& box) {
+  State state;
+  state.box = box.side;
+  for (const Particle& p : particles) {
+    state.id.push_back(p.id);
+    state.position.push_back(p.position);
+    state.velocity.push_back(p.velocity);
+  }
+  state.exponent = clock.exponent;
+  state.collisions = clock.collisions;
+  state.time = clock.start;
+  state.tally = clock.tally;
+  state.momentum_removed = clock.momentum_removed;
+  return state;
+}
+
+void copy_particles(const State& state, std::span<Particle> particles) {
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    particles[k] = {state.position[k], 0, state.velocity[k], state.id[k], 0};
+}
+
+Clock to_clock(const State& state) {
+  Clock clock;
+  clock.collisions = state.collisions;
+  clock.start = state.time;
+  clock.exponent = state.exponent;
+  clock.tally = state.tally;
+  clock.momentum_removed = state.momentum_removed;
+  return clock;
+}
+
+std::int64_t next_synchronization(std::int64_t collisions, std::uint32_t particles) {
+  const auto passed = static_cast<std::int64_t>(2.0 * static_cast<double>(collisions) /
+                                                (synchronization_period * particles));
+  for (std::int64_t k = std::max<std::int64_t>(passed - 1, 0);; ++k) {
+    const auto at = collisions_at(synchronization_period * static_cast<double>(k), particles);
+    if (at > collisions) return at;
+  }
+}
+
+}  // namespace haff::engine
