@@ -1,0 +1,42 @@
+// Means and their standard errors: over independent realizations, and over one correlated series.
+//
+//   standard error of N independent values: sqrt(sum (x - mean)^2 / (N (N - 1)))
+//   correlated values: the same of the means of blocks longer than the correlation time,
+//   H. Flyvbjerg and H. G. Petersen, J. Chem. Phys. 91, 461 (1989); the shortest block length B
+//   with B^3 > 2 N (error with blocks / error without)^4 is long enough and leaves the most
+//   blocks, R. M. Lee et al., Phys. Rev. E 83, 066706 (2011).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace haff::analysis {
+
+struct Estimate {
+  double mean = 0;
+  double standard_error = 0;  // NaN where one value says nothing of its error
+  std::size_t count = 0;
+};
+
+// Mean of independent values, in the order given. Throws std::invalid_argument if there are none.
+Estimate estimate(std::span<const double> values);
+
+// Mean of one correlated, stationary series from blocks of 1, 2, 4, ... values, at least eight of
+// them. A series shorter than some ten correlation times has its error underestimated.
+struct BlockEstimate {
+  Estimate estimate;  // count: of blocks
+  std::size_t block_length = 1;
+  // Integrated correlation time in units of the sample interval, 1/2 for independent values:
+  // (standard error / naive standard error)^2 / 2.
+  double correlation_time = 0.5;
+};
+// Throws std::invalid_argument for fewer than two values. Error of the standard error: about
+// 1/sqrt(2 (blocks - 1)) of itself.
+BlockEstimate block_estimate(std::span<const double> series);
+
+// Centred moving average over `window` (odd) neighbours; the window shrinks symmetrically at the
+// ends. Same length as the series. Throws std::invalid_argument for an even window.
+std::vector<double> smoothed(std::span<const double> series, std::size_t window);
+
+}  // namespace haff::analysis
