@@ -1,0 +1,16 @@
+// The SQL and JSON files of this folder, as text within the program (embed.cmake).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace haff::schema {
+
+struct Embedded {
+  std::string_view name;  // of the file, without its folder
+  std::string_view text;
+};
+
+std::span<const Embedded> embedded();  // sorted by name
+
+}  // namespace haff::schema

@@ -1,0 +1,36 @@
+// What can go wrong with a store. Each message names the file, what is wrong and what to do next.
+#pragma once
+
+#include <stdexcept>
+
+namespace haff::schema {
+
+// The store cannot be opened, is not a store, or SQLite reported an error.
+struct StoreError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The disk is full or does not write. The transaction was rolled back: the store holds what it
+// held before.
+struct DiskError : StoreError {
+  using StoreError::StoreError;
+};
+
+// The job this writer worked on belongs to another now (or to nobody). Nothing was written: stop
+// working on it.
+struct LeaseLost : StoreError {
+  using StoreError::StoreError;
+};
+
+// What is stored contradicts itself: a checkpoint whose bytes do not add up to its checksum, or a
+// sample that came out different when it was computed a second time.
+struct Damage : StoreError {
+  using StoreError::StoreError;
+};
+
+// SQL that does not parse, asks for what is not there, or would write.
+struct QueryError : StoreError {
+  using StoreError::StoreError;
+};
+
+}  // namespace haff::schema

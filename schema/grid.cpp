@@ -1,0 +1,311 @@
+#include "schema/grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include "schema/document.hpp"
+#include "schema/rules.hpp"
+
+namespace haff::schema {
+
+namespace {
+
+// Below this side of the box a sphere would meet another one and its image at once. [sigma]
+constexpr double smallest_box = 2;
+
+// What the engine can number in one word together with a particle's cell.
+constexpr double most_particles = 0x1p28;
+
+// ---- the file ---------------------------------------------------------------------------------
+
+std::string contents(const std::filesystem::path& path) try {
+  std::ifstream stream(path, std::ios::binary);
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
+  return {std::istreambuf_iterator<char>(stream), {}};
+} catch (const std::ios_base::failure&) {
+  throw GridError(path.string() + ": cannot be read: " + std::strerror(errno));
+}
+
+// ---- one grid among its defaults --------------------------------------------------------------
+
+// A value and where in the file it stands.
+struct Placed {
+  Pointer where;
+  Json value;
+};
+
+// A scalar, or what a list holds, each with its place.
+std::vector<Placed> items(const Placed& placed) {
+  if (!placed.value.is_array()) return {placed};
+  std::vector<Placed> list;
+  for (std::size_t i = 0; i < placed.value.size(); ++i)
+    list.push_back({placed.where / i, placed.value[i]});
+  return list;
+}
+
+// A grid of the document: its own keys, else those beside "grids", else the schema's defaults.
+class Source {
+ public:
+  Source(const Json& document, Pointer where) : document_(document), where_(std::move(where)) {}
+
+  const Pointer& where() const { return where_; }
+
+  std::optional<Placed> find(const std::string& key) const {
+    for (const Pointer& place : {where_ / key, Pointer() / key})
+      if (document_.contains(place)) return Placed{place, document_.at(place)};
+    if (Json value = default_value(key); !value.is_null()) return Placed{where_ / key, value};
+    return std::nullopt;
+  }
+
+  Placed operator[](const std::string& key) const { return find(key).value(); }
+
+  template <class Number>
+  std::vector<Number> list(const std::string& key) const {
+    std::vector<Number> numbers;
+    for (const Placed& item : items((*this)[key]))
+      numbers.push_back(static_cast<Number>(item.value.get<double>() + 0.0));  // -0 is 0
+    return numbers;
+  }
+
+ private:
+  const Json& document_;
+  Pointer where_;
+};
+
+std::vector<Source> sources(const Json& document) {
+  if (!document.contains("grids")) return {Source(document, Pointer())};
+  std::vector<Source> list;
+  for (std::size_t i = 0; i < document["grids"].size(); ++i)
+    list.emplace_back(document, Pointer() / "grids" / i);
+  return list;
+}
+
+// ---- rules that a JSON schema cannot express --------------------------------------------------
+
+// The shortest text that reads back as the same number: 0.8, 32000.
+std::string text(double value) {
+  std::array<char, 32> digits;
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+std::string rounded(double value) {  // to 3 digits
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                 std::chars_format::general, 3);
+  return {digits.data(), end.ptr};
+}
+
+std::string gigabytes(double bytes) {
+  return rounded(bytes / 1e9) + " GB";
+}
+
+// Checks one file; every function throws GridError.
+class Examiner {
+ public:
+  Examiner(const Json& document, const std::string& file, const Memory& memory)
+      : document_(document), file_(file), memory_(memory) {}
+
+  // No list holds a value twice, however it is written.
+  void no_repeats(const Json& value, const Pointer& where) const {
+    if (value.is_object())
+      for (const auto& [key, member] : value.items()) no_repeats(member, where / key);
+    if (!value.is_array()) return;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      no_repeats(value[i], where / i);
+      const auto first = std::find(value.begin(), value.end(), value[i]) - value.begin();
+      if (static_cast<std::size_t>(first) < i && value[i].is_primitive())
+        throw fault(file_, where / i,
+                    shown(value[i]) + " is already at " +
+                        (where / static_cast<std::size_t>(first)).to_string() +
+                        "; expected each value once");
+    }
+  }
+
+  void complete(const Source& source) const {
+    for (const std::string& key : required_keys())
+      if (!source.find(key))
+        throw fault(file_, source.where(),
+                    "has no \"" + key + "\", and there is none beside \"grids\"; expected " +
+                        description(key));
+  }
+
+  void fits(const Source& source) const {
+    for (const Placed& particles : items(source["N"])) {
+      const double N = particles.value.get<double>();
+      fits_in_memory(particles, N);
+      for (const double n : source.list<double>("n")) fits_in_box(particles, N, n);
+      for (const double sample_every : source.list<double>("sample_every"))
+        collides_between_samples(source, N, sample_every);
+    }
+  }
+
+  // How far each e is run, in the order of e.
+  std::vector<double> tau_max(const Source& source) const {
+    const Placed placed = source["tau_max"];
+    const auto e = source.list<double>("e");
+    if (placed.value.is_number()) return std::vector<double>(e.size(), placed.value.get<double>());
+    return matched(placed, e);
+  }
+
+  // A map beside "grids" may serve several grids: each of its keys must be the e of one of them.
+  void no_strays(const std::vector<Source>& sources) const {
+    for (const Source& one : sources) {
+      const Placed placed = one["tau_max"];
+      if (!placed.value.is_object()) continue;
+      std::vector<double> asked;
+      for (const Source& source : sources)
+        if (source["tau_max"].where == placed.where) {
+          const auto e = source.list<double>("e");
+          asked.insert(asked.end(), e.begin(), e.end());
+        }
+      for (const auto& [key, value] : placed.value.items())
+        if (std::count(asked.begin(), asked.end(), restitution(placed.where, key)) == 0)
+          throw fault(file_, placed.where / key,
+                      "there is no such e; expected the e of this grid: " + listed(asked));
+    }
+  }
+
+  void sampled(const Source& source, const std::vector<double>& tau_max) const {
+    for (const Placed& item : items(source["sample_every"])) {
+      const double shortest = *std::min_element(tau_max.begin(), tau_max.end());
+      if (item.value.get<double>() > shortest)
+        throw fault(file_, item.where,
+                    shown(item.value) +
+                        " is longer than the run; expected at most tau_max = " + text(shortest));
+    }
+  }
+
+ private:
+  void fits_in_memory(const Placed& particles, double N) const {
+    const double bytes = N * memory_.bytes_per_particle;
+    if (bytes > memory_.bytes || N >= most_particles)
+      throw fault(file_, particles.where,
+                  shown(particles.value) + " particles need " + gigabytes(bytes) +
+                      "; expected at most the " + gigabytes(memory_.bytes) +
+                      " of this machine, and N below 2^28");
+  }
+
+  void fits_in_box(const Placed& particles, double N, double n) const {
+    if (N / n >= std::pow(smallest_box, 3)) return;
+    throw fault(file_, particles.where,
+                shown(particles.value) + " particles at n = " + text(n) +
+                    " make a box of side L = " + rounded(std::cbrt(N / n)) +
+                    " sigma; expected L >= " + text(smallest_box) +
+                    " sigma, N >= " + text(std::ceil(std::pow(smallest_box, 3) * n)));
+  }
+
+  void collides_between_samples(const Source& source, double N, double sample_every) const {
+    if (sample_every * N >= 2) return;
+    throw fault(file_, source["sample_every"].where,
+                text(sample_every) + " is less than one collision of " + text(N) +
+                    " particles; expected at least 2/N = " + rounded(2 / N));
+  }
+
+  double restitution(const Pointer& where, const std::string& key) const {
+    double e = 0;
+    const char* end = key.data() + key.size();
+    const auto read = std::from_chars(key.data(), end, e);
+    if (read.ec != std::errc() || read.ptr != end)
+      throw fault(file_, where / key, "is not a number; expected an e of this grid");
+    return e;
+  }
+
+  std::vector<double> matched(const Placed& map, const std::vector<double>& e) const {
+    std::vector<std::optional<double>> found(e.size());
+    for (const auto& [key, value] : map.value.items()) {
+      const auto same = std::find(e.begin(), e.end(), restitution(map.where, key));
+      if (same == e.end()) continue;  // another grid's: see no_strays
+      auto& tau_max = found[static_cast<std::size_t>(same - e.begin())];
+      if (tau_max)
+        throw fault(file_, map.where / key,
+                    "is the second entry for e = " + text(*same) + "; expected one");
+      tau_max = value.get<double>();
+    }
+    std::vector<double> tau_max;
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      if (!found[i])
+        throw fault(file_, map.where,
+                    "has no entry for e = " + text(e[i]) + "; expected one for each e of the grid");
+      tau_max.push_back(*found[i]);
+    }
+    return tau_max;
+  }
+
+  static std::string listed(const std::vector<double>& numbers) {
+    std::string all;
+    for (const double number : numbers) all += (all.empty() ? "" : ", ") + text(number);
+    return all;
+  }
+
+  const Json& document_;
+  const std::string& file_;
+  const Memory& memory_;
+};
+
+// ---- the grid ---------------------------------------------------------------------------------
+
+std::vector<std::uint64_t> seeds(const Placed& placed) {
+  std::vector<std::uint64_t> list;
+  if (placed.value.is_number()) {
+    const auto count = static_cast<std::uint64_t>(placed.value.get<double>());
+    for (std::uint64_t seed = 1; seed <= count; ++seed) list.push_back(seed);
+  } else {
+    for (const Json& seed : placed.value)
+      list.push_back(static_cast<std::uint64_t>(seed.get<double>()));
+  }
+  return list;
+}
+
+std::vector<std::string> observables(const Placed& placed) {
+  std::vector<std::string> names;
+  for (const Placed& item : items(placed)) names.push_back(item.value.get<std::string>());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {
+  return {.e = source.list<double>("e"),
+          .n = source.list<double>("n"),
+          .particles = source.list<std::uint32_t>("N"),
+          .seeds = seeds(source["seeds"]),
+          .tau_max = std::move(tau_max),
+          .sample_every = source.list<double>("sample_every"),
+          .equilibrate = source.list<double>("equilibrate"),
+          .checkpoint_every = source["checkpoint_every"].value.get<double>(),
+          .observables = observables(source["observables"])};
+}
+
+}  // namespace
+
+Grid parse_grid(std::string_view text, const std::string& file, const Memory& memory) {
+  const Json document = read_document(text, file);
+  check_rules(document, file);
+
+  const Examiner examiner(document, file, memory);
+  examiner.no_repeats(document, Pointer());
+  const auto all = sources(document);
+  for (const Source& source : all) examiner.complete(source);
+  examiner.no_strays(all);
+
+  Grid grid{.name = document.value("name", ""), .grids = {}};
+  for (const Source& source : all) {
+    examiner.fits(source);
+    auto tau_max = examiner.tau_max(source);
+    examiner.sampled(source, tau_max);
+    grid.grids.push_back(sub_grid(source, std::move(tau_max)));
+  }
+  return grid;
+}
+
+Grid read_grid(const std::filesystem::path& path, const Memory& memory) {
+  return parse_grid(contents(path), path.string(), memory);
+}
+
+}  // namespace haff::schema

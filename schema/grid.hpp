@@ -1,0 +1,50 @@
+// A grid file: what a user asks for, read, validated and made explicit (grid.schema.json).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace haff::schema {
+
+// Something is wrong with a grid file. The message names the file, the JSON pointer (or line and
+// column), the value and what was expected.
+struct GridError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// One entry of "grids" with all defaults filled in: the product of these lists. No list is empty
+// or holds a value twice.
+struct SubGrid {
+  std::vector<double> e;
+  std::vector<double> n;                 // [sigma^-3]
+  std::vector<std::uint32_t> particles;  // N
+  std::vector<std::uint64_t> seeds;
+  std::vector<double> tau_max;  // as long as e: how far each e is run [collisions per particle]
+  std::vector<double> sample_every;
+  std::vector<double> equilibrate;
+  double checkpoint_every = 0;
+  std::vector<std::string> observables;  // sorted
+};
+
+struct Grid {
+  std::string name;  // empty if not given
+  std::vector<SubGrid> grids;
+};
+
+// What the machine can hold.
+struct Memory {
+  double bytes = 0;               // of the machine
+  double bytes_per_particle = 0;  // of a running job
+};
+
+// Read and check a grid file. Throws GridError.
+Grid read_grid(const std::filesystem::path& path, const Memory& memory);
+
+// The same for a text; `file` is what messages call it.
+Grid parse_grid(std::string_view text, const std::string& file, const Memory& memory);
+
+}  // namespace haff::schema

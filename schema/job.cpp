@@ -1,0 +1,75 @@
+#include "schema/job.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace haff::schema {
+
+namespace {
+
+// The shortest text that reads back as the same double; zero has no sign.
+std::string real(double value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value + 0.0).ptr;
+  return {text.data(), end};
+}
+
+}  // namespace
+
+std::string_view name(Kind kind) {
+  return kind == Kind::equilibration ? "equilibration" : "cooling";
+}
+
+Kind kind_named(std::string_view text) {
+  for (const Kind kind : {Kind::equilibration, Kind::cooling})
+    if (name(kind) == text) return kind;
+  throw std::invalid_argument("no kind of job is called " + std::string(text));
+}
+
+std::string_view name(Status status) {
+  return statuses[static_cast<std::size_t>(status)].name;
+}
+
+Status status_named(std::string_view text) {
+  for (const StatusEntry& entry : statuses)
+    if (entry.name == text) return entry.status;
+  throw std::invalid_argument("no status is called " + std::string(text));
+}
+
+Job equilibration_of(const Job& cooling) {
+  Job job = cooling;
+  job.kind = Kind::equilibration;
+  job.e = 1;
+  job.sample_every = equilibration_sample_every;
+  job.effects = "{}";
+  job.observables = {"laguerre", "temperature"};
+  return job;
+}
+
+std::string identity(const Job& job) {
+  return R"({"d":)" + std::to_string(job.d) +                        //
+         R"(,"e":)" + real(job.e) +                                  //
+         R"(,"effects":)" + job.effects +                            //
+         R"(,"equilibrate":)" + real(job.equilibrate) +              //
+         R"(,"kind":")" + std::string(name(job.kind)) +              //
+         R"(","n":)" + real(job.n) +                                 //
+         R"(,"observables":)" + observables_text(job.observables) +  //
+         R"(,"particles":)" + std::to_string(job.particles) +        //
+         R"(,"precision":")" + job.precision +                       //
+         R"(","sample_every":)" + real(job.sample_every) +           //
+         R"(,"seed":)" + std::to_string(job.seed) + "}";
+}
+
+std::string observables_text(const std::vector<std::string>& observables) {
+  auto sorted = observables;
+  std::sort(sorted.begin(), sorted.end());
+  return nlohmann::json(sorted).dump();
+}
+
+std::vector<std::string> observables_in(const std::string& text) {
+  return nlohmann::json::parse(text).get<std::vector<std::string>>();
+}
+
+}  // namespace haff::schema

@@ -1,0 +1,212 @@
+#include <algorithm>
+
+#include "schema/checksum.hpp"
+#include "schema/database.hpp"
+#include "schema/rows.hpp"
+#include "schema/store.hpp"
+
+namespace haff::schema {
+
+Reader::Reader(const std::filesystem::path& path)
+    : Reader(std::make_unique<Database>(path, Access::read)) {}
+Reader::Reader(std::unique_ptr<Database> database) : database_(std::move(database)) {}
+Reader::~Reader() = default;
+Reader::Reader(Reader&&) noexcept = default;
+Reader& Reader::operator=(Reader&&) noexcept = default;
+
+const std::filesystem::path& Reader::path() const {
+  return database_->path();
+}
+
+Summary Reader::summary() const {
+  return database_->snapshot([&] {
+    Summary summary;
+    for (const StatusEntry& entry : statuses) summary.jobs[entry.status] = 0;
+    SQLite::Statement jobs(database_->sqlite(), R"(
+      SELECT status, count(*) AS number, total(cpu_seconds) AS spent,
+             total(expected_cpu_seconds) AS expected,
+             total(expected_cpu_seconds * max(0, 1 - tau / tau_max))
+               FILTER (WHERE status IN ('pending', 'running')) AS remaining
+      FROM jobs GROUP BY status)");
+    while (jobs.executeStep()) {
+      summary.jobs[status_named(text(jobs, "status"))] = integer(jobs, "number");
+      summary.cpu_seconds += real(jobs, "spent");
+      summary.expected_cpu_seconds += real(jobs, "expected");
+      summary.remaining_cpu_seconds += real(jobs, "remaining");
+    }
+    SQLite::Statement pending(database_->sqlite(), R"(
+      SELECT coalesce(equilibration.status, 'done') AS start, count(*) AS number
+      FROM jobs LEFT JOIN jobs AS equilibration ON equilibration.job_id = jobs.equilibration_id
+      WHERE jobs.status = 'pending' GROUP BY start)");
+    while (pending.executeStep()) {
+      const Status start = status_named(text(pending, "start"));
+      auto& count = start == Status::done                                  ? summary.claimable
+                    : start == Status::pending || start == Status::running ? summary.waiting
+                                                                           : summary.blocked;
+      count += integer(pending, "number");
+    }
+    return summary;
+  });
+}
+
+std::vector<JobRow> Reader::jobs() const {
+  return database_->guarded([&] {
+    SQLite::Statement statement(database_->sqlite(), R"(
+      SELECT * FROM jobs
+      ORDER BY kind DESC, d, n, particles, e, equilibrate, sample_every, precision, effects,
+               observables, seed)");
+    std::vector<JobRow> rows;
+    while (statement.executeStep()) rows.push_back(job_row(statement));
+    return rows;
+  });
+}
+
+JobRow Reader::job(std::int64_t job_id) const {
+  return database_->guarded([&] {
+    SQLite::Statement statement(database_->sqlite(), "SELECT * FROM jobs WHERE job_id = ?");
+    statement.bind(1, job_id);
+    if (!statement.executeStep())
+      throw StoreError(path().string() + ": there is no job " + std::to_string(job_id));
+    return job_row(statement);
+  });
+}
+
+std::optional<std::int64_t> Reader::find(const Job& job) const {
+  return database_->guarded([&]() -> std::optional<std::int64_t> {
+    SQLite::Statement statement(database_->sqlite(), "SELECT job_id FROM jobs WHERE identity = ?");
+    statement.bind(1, identity(job));
+    if (!statement.executeStep()) return std::nullopt;
+    return integer(statement, "job_id");
+  });
+}
+
+std::vector<RunningJob> Reader::running() const {
+  return database_->guarded([&] {
+    SQLite::Statement statement(database_->sqlite(),
+                                "SELECT * FROM jobs WHERE status = 'running' ORDER BY job_id");
+    std::vector<RunningJob> jobs;
+    while (statement.executeStep())
+      jobs.push_back({.lease = {integer(statement, "job_id"), integer(statement, "lease")},
+                      .owner = owner(statement),
+                      .job = job_of(statement),
+                      .tau_max = real(statement, "tau_max"),
+                      .progress = progress_of(statement),
+                      .renewed = text(statement, "renewed")});
+    return jobs;
+  });
+}
+
+std::vector<Sample> Reader::samples(std::int64_t job_id) const {
+  return database_->guarded([&] {
+    SQLite::Statement statement(database_->sqlite(),
+                                "SELECT * FROM samples WHERE job_id = ? ORDER BY tau");
+    statement.bind(1, job_id);
+    std::vector<Sample> samples;
+    while (statement.executeStep()) samples.push_back(sample(statement));
+    return samples;
+  });
+}
+
+std::optional<Sample> Reader::last_sample(std::int64_t job_id, double tau) const {
+  return database_->guarded([&]() -> std::optional<Sample> {
+    SQLite::Statement statement(
+        database_->sqlite(),
+        "SELECT * FROM samples WHERE job_id = ? AND tau <= ? ORDER BY tau DESC LIMIT 1");
+    statement.bind(1, job_id);
+    statement.bind(2, tau);
+    if (!statement.executeStep()) return std::nullopt;
+    return sample(statement);
+  });
+}
+
+std::optional<Results> Reader::results(std::int64_t job_id) const {
+  return database_->guarded([&]() -> std::optional<Results> {
+    SQLite::Statement statement(database_->sqlite(), "SELECT * FROM results WHERE job_id = ?");
+    statement.bind(1, job_id);
+    if (!statement.executeStep()) return std::nullopt;
+    return Results{optional_real(statement, "tau_c"), optional_real(statement, "time_c")};
+  });
+}
+
+std::vector<CheckpointInfo> Reader::checkpoints() const {
+  return database_->guarded([&] {
+    SQLite::Statement statement(database_->sqlite(), "SELECT * FROM checkpoints ORDER BY job_id");
+    std::vector<CheckpointInfo> infos;
+    while (statement.executeStep()) infos.push_back(checkpoint_info(statement));
+    return infos;
+  });
+}
+
+std::optional<Checkpoint> Reader::checkpoint(std::int64_t job_id) const {
+  const auto damaged = [&](const std::string& what) {
+    return Damage(path().string() + ": the checkpoint of job " + std::to_string(job_id) +
+                  " is damaged: " + what);
+  };
+  return database_->snapshot([&]() -> std::optional<Checkpoint> {
+    SQLite::Statement header(database_->sqlite(), "SELECT * FROM checkpoints WHERE job_id = ?");
+    header.bind(1, job_id);
+    if (!header.executeStep()) return std::nullopt;
+    const CheckpointInfo info = checkpoint_info(header);
+
+    Checkpoint checkpoint{.tau = info.tau, .collisions = info.collisions, .state = {}};
+    SQLite::Statement chunks(
+        database_->sqlite(),
+        "SELECT position, bytes FROM checkpoint_chunks WHERE job_id = ? ORDER BY position");
+    chunks.bind(1, job_id);
+    for (std::int64_t position = 0; chunks.executeStep(); ++position) {
+      if (chunks.getColumn(0).getInt64() != position)
+        throw damaged("chunk " + std::to_string(position) + " is missing");
+      const auto chunk = chunks.getColumn(1);
+      const auto* bytes = static_cast<const std::byte*>(chunk.getBlob());
+      checkpoint.state.insert(checkpoint.state.end(), bytes, bytes + chunk.getBytes());
+    }
+    const auto size = static_cast<std::int64_t>(checkpoint.state.size());
+    if (size != info.bytes)
+      throw damaged("it holds " + std::to_string(size) + " bytes of " + std::to_string(info.bytes));
+    if (static_cast<std::int64_t>(checksum(checkpoint.state)) != integer(header, "checksum"))
+      throw damaged("its bytes do not add up to its checksum");
+    return checkpoint;
+  });
+}
+
+Outcome outcome(SQLite::Database& sqlite, const Planned& planned) {
+  SQLite::Statement statement(sqlite, "SELECT tau_max, status FROM jobs WHERE identity = ?");
+  statement.bind(1, identity(planned.job));
+  if (!statement.executeStep()) return Outcome::added;
+  const bool longer = planned.tau_max > real(statement, "tau_max");
+  const bool can_go_on = text(statement, "status") != name(Status::collapsed);
+  return longer && can_go_on ? Outcome::extended : Outcome::unchanged;
+}
+
+std::vector<Outcome> Reader::preview(const std::vector<Planned>& plan) const {
+  return database_->snapshot([&] {
+    std::vector<Outcome> outcomes;
+    outcomes.reserve(plan.size());
+    for (const Planned& planned : plan) outcomes.push_back(outcome(database_->sqlite(), planned));
+    return outcomes;
+  });
+}
+
+Query Reader::query(const std::string& sql) const {
+  return {*database_, sql};
+}
+
+std::vector<std::string> Reader::faults() const {
+  std::vector<std::string> faults;
+  for (const char* check : {"SELECT integrity_check FROM pragma_integrity_check "
+                            "WHERE integrity_check <> 'ok'",
+                            "SELECT \"table\" || ' row ' || coalesce(rowid, '?') || "
+                            "' refers to a row that is missing in ' || parent "
+                            "FROM pragma_foreign_key_check"})
+    try {
+      database_->guarded([&] {
+        SQLite::Statement lines(database_->sqlite(), check);
+        while (lines.executeStep()) faults.push_back(lines.getColumn(0).getString());
+      });
+    } catch (const Damage& damage) {
+      faults.emplace_back(damage.what());  // so bad that the check itself could not go on
+    }
+  return faults;
+}
+
+}  // namespace haff::schema

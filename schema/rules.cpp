@@ -1,0 +1,194 @@
+#include "schema/rules.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "schema/embedded.hpp"
+
+namespace haff::schema {
+
+namespace {
+
+// ---- the schema -------------------------------------------------------------------------------
+
+const Json& schema() {
+  static const Json parsed = [] {
+    for (const Embedded& file : embedded())
+      if (file.name == "grid.schema.json") return Json::parse(file.text);
+    throw std::logic_error("the program was built without grid.schema.json");
+  }();
+  return parsed;
+}
+
+const valijson::Schema& compiled() {
+  static const valijson::Schema* const rules = [] {
+    auto* made = new valijson::Schema;  // never freed: it lives as long as the program
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+        .populateSchema(valijson::adapters::NlohmannJsonAdapter(schema()), *made);
+    return made;
+  }();
+  return *rules;
+}
+
+const Json& grid_properties() {
+  return schema()["definitions"]["grid"]["properties"];
+}
+
+// The rule itself, where it is only referred to.
+const Json& resolved(const Json& rule) {
+  if (!rule.contains("$ref")) return rule;
+  return schema().at(Pointer(rule["$ref"].get<std::string>().substr(1)));
+}
+
+// The rule for the member or item `token` of what `rule` describes; null if there is none.
+const Json* rule_within(const Json& rule, const std::string& token) {
+  const Json& here = resolved(rule);
+  if (here.contains("properties") && here["properties"].contains(token))
+    return &resolved(here["properties"][token]);
+  if (here.contains("items")) return &resolved(here["items"]);
+  if (here.contains("additionalProperties") && here["additionalProperties"].is_object())
+    return &resolved(here["additionalProperties"]);
+  if (here.contains("anyOf"))
+    for (const Json& alternative : here["anyOf"])
+      if (const Json* found = rule_within(alternative, token)) return found;
+  return nullptr;
+}
+
+const Json* rule_at(const Pointer& where) {
+  std::vector<std::string> tokens;
+  for (Pointer rest = where; !rest.empty(); rest.pop_back()) tokens.push_back(rest.back());
+  const Json* rule = &schema();
+  for (auto token = tokens.rbegin(); rule && token != tokens.rend(); ++token)
+    rule = rule_within(*rule, *token);
+  return rule;
+}
+
+// ---- words ------------------------------------------------------------------------------------
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// Letters to insert, delete or replace to make one word the other, whatever their case
+// (Levenshtein's distance).
+std::size_t distance(const std::string& one, const std::string& other) {
+  const std::string a = lower(one), b = lower(other);
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+std::string quoted(const std::string& word) {
+  return '"' + word + '"';
+}
+
+// The known word this one was meant to be, if less than half of it is wrong; else all of them.
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  const auto nearest = std::min_element(known.begin(), known.end(), [&](auto& a, auto& b) {
+    return distance(word, a) < distance(word, b);
+  });
+  if (2 * distance(word, *nearest) <= word.size()) return "did you mean " + quoted(*nearest) + "?";
+  std::string all = "expected one of ";
+  for (const std::string& one : known) all += (&one == &known.front() ? "" : ", ") + quoted(one);
+  return all;
+}
+
+// ---- the message ------------------------------------------------------------------------------
+
+// valijson names a place as "<root>", "[grids]", "[1]", "[e]".
+Pointer pointer_to(const std::vector<std::string>& context) {
+  Pointer pointer;
+  for (std::size_t i = 1; i < context.size(); ++i)
+    pointer.push_back(context[i].substr(1, context[i].size() - 2));
+  return pointer;
+}
+
+std::optional<std::string> unknown_key(const Json& value, const Json& rule) {
+  if (!value.is_object() || !rule.contains("properties")) return std::nullopt;
+  for (const auto& [key, member] : value.items())
+    if (!rule["properties"].contains(key)) return key;
+  return std::nullopt;
+}
+
+std::vector<std::string> keys(const Json& object) {
+  std::vector<std::string> names;
+  for (const auto& [key, member] : object.items()) names.push_back(key);
+  return names;
+}
+
+// The words a value may be, if it is one of a few.
+std::vector<std::string> enumerated(const Json& rule) {
+  if (rule.contains("enum")) return rule["enum"].get<std::vector<std::string>>();
+  if (rule.contains("anyOf"))
+    for (const Json& alternative : rule["anyOf"])
+      if (resolved(alternative).contains("enum")) return enumerated(resolved(alternative));
+  return {};
+}
+
+GridError explanation(const Json& document, const std::string& file, const Pointer& where) {
+  const Json& value = document.at(where);
+  const Json* rule = rule_at(where);
+  if (!rule) throw std::logic_error("grid.schema.json has no rule for " + where.to_string());
+
+  if (const auto key = unknown_key(value, *rule))
+    return fault(file, where / *key,
+                 "unknown key; " + suggestion(*key, keys((*rule)["properties"])));
+
+  if (value.is_object() && where.empty())
+    for (const std::string& key : required_keys())
+      if (!value.contains(key))
+        return fault(file, where, "has no " + quoted(key) + "; expected " + description(key));
+
+  const auto words = enumerated(*rule);
+  if (value.is_string() && !words.empty())
+    return fault(file, where,
+                 shown(value) + " is not accepted; " + suggestion(value.get<std::string>(), words));
+
+  return fault(
+      file, where,
+      shown(value) + " is not accepted; expected " + (*rule)["description"].get<std::string>());
+}
+
+}  // namespace
+
+void check_rules(const Json& document, const std::string& file) {
+  valijson::Validator validator(valijson::Validator::kStrongTypes);
+  valijson::ValidationResults results;
+  if (validator.validate(compiled(), valijson::adapters::NlohmannJsonAdapter(document), &results))
+    return;
+  // Each enclosing object fails too, and so does each alternative: the deepest one is the cause.
+  const auto cause = std::max_element(results.begin(), results.end(), [](auto& a, auto& b) {
+    return a.context.size() < b.context.size();
+  });
+  throw explanation(document, file, pointer_to(cause->context));
+}
+
+std::vector<std::string> required_keys() {
+  return schema()["then"]["required"].get<std::vector<std::string>>();
+}
+
+std::string description(const std::string& key) {
+  return grid_properties()[key]["description"].get<std::string>();
+}
+
+Json default_value(const std::string& key) {
+  return grid_properties()[key].value("default", Json());
+}
+
+}  // namespace haff::schema

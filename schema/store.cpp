@@ -1,0 +1,396 @@
+#include "schema/store.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+
+#include "schema/checksum.hpp"
+#include "schema/database.hpp"
+#include "schema/rows.hpp"
+
+namespace haff::schema {
+
+namespace {
+
+const std::string now = "strftime('%Y-%m-%dT%H:%M:%fZ', 'now')";
+
+void bind(SQLite::Statement& statement, const char* name, std::optional<double> value) {
+  if (value)
+    statement.bind(name, *value);
+  else
+    statement.bind(name);
+}
+
+// ---- planning ---------------------------------------------------------------------------------
+
+// The job that a cooling job starts from; nothing for an equilibration.
+std::optional<std::int64_t> equilibration_id(SQLite::Database& sqlite, const Job& job) {
+  if (job.kind == Kind::equilibration) return std::nullopt;
+  const std::string start = identity(equilibration_of(job));
+  SQLite::Statement statement(sqlite, "SELECT job_id FROM jobs WHERE identity = ?");
+  statement.bind(1, start);
+  if (!statement.executeStep())
+    throw std::logic_error("a plan lacks the equilibration of its jobs: " + start);
+  return integer(statement, "job_id");
+}
+
+void insert(SQLite::Database& sqlite, const Planned& planned) {
+  SQLite::Statement statement(
+      sqlite,
+      "INSERT INTO jobs (identity, kind, d, e, n, particles, seed, equilibrate, "
+      "sample_every, precision, effects, observables, tau_max, checkpoint_every, "
+      "equilibration_id, expected_cpu_seconds, created) "
+      "VALUES (:identity, :kind, :d, :e, :n, :particles, :seed, :equilibrate, "
+      ":sample_every, :precision, :effects, :observables, :tau_max, :checkpoint_every, "
+      ":equilibration_id, :expected_cpu_seconds, " +
+          now + ")");
+  const Job& job = planned.job;
+  statement.bind(":identity", identity(job));
+  statement.bind(":kind", std::string(name(job.kind)));
+  statement.bind(":d", job.d);
+  statement.bind(":e", job.e);
+  statement.bind(":n", job.n);
+  statement.bind(":particles", job.particles);
+  statement.bind(":seed", static_cast<std::int64_t>(job.seed));
+  statement.bind(":equilibrate", job.equilibrate);
+  statement.bind(":sample_every", job.sample_every);
+  statement.bind(":precision", job.precision);
+  statement.bind(":effects", job.effects);
+  statement.bind(":observables", observables_text(job.observables));
+  statement.bind(":tau_max", planned.tau_max);
+  statement.bind(":checkpoint_every", planned.checkpoint_every);
+  if (const auto id = equilibration_id(sqlite, job)) statement.bind(":equilibration_id", *id);
+  bind(statement, ":expected_cpu_seconds", planned.expected_cpu_seconds);
+  statement.exec();
+}
+
+void extend(SQLite::Database& sqlite, const Planned& planned) {
+  SQLite::Statement statement(sqlite, R"(
+    UPDATE jobs SET tau_max = :tau_max, checkpoint_every = :checkpoint_every,
+                    expected_cpu_seconds = coalesce(:expected_cpu_seconds, expected_cpu_seconds),
+                    finished = iif(status = 'done', NULL, finished),
+                    status = iif(status = 'done', 'pending', status)
+    WHERE identity = :identity)");
+  statement.bind(":identity", identity(planned.job));
+  statement.bind(":tau_max", planned.tau_max);
+  statement.bind(":checkpoint_every", planned.checkpoint_every);
+  bind(statement, ":expected_cpu_seconds", planned.expected_cpu_seconds);
+  statement.exec();
+}
+
+Outcome add(SQLite::Database& sqlite, const Planned& planned) {
+  const Outcome what = outcome(sqlite, planned);
+  if (what == Outcome::added) insert(sqlite, planned);
+  if (what == Outcome::extended) extend(sqlite, planned);
+  return what;
+}
+
+// ---- working ----------------------------------------------------------------------------------
+
+bool holds(SQLite::Database& sqlite, const Lease& lease) {
+  SQLite::Statement statement(
+      sqlite, "SELECT 1 FROM jobs WHERE job_id = ? AND lease = ? AND status = 'running'");
+  statement.bind(1, lease.job_id);
+  statement.bind(2, lease.token);
+  return statement.executeStep();
+}
+
+void must_hold(Database& database, const Lease& lease) {
+  if (!holds(database.sqlite(), lease))
+    throw LeaseLost(database.path().string() + ": job " + std::to_string(lease.job_id) +
+                    " has passed to another worker; what this one did since its last commit is "
+                    "dropped");
+}
+
+void report(SQLite::Database& sqlite, const Lease& lease, const Progress& progress) {
+  SQLite::Statement statement(sqlite,
+                              "UPDATE jobs SET tau = ?, collisions = ?, cpu_seconds = ?, "
+                              "renewed = iif(status = 'running', " +
+                                  now + ", NULL) WHERE job_id = ?");
+  statement.bind(1, progress.tau);
+  statement.bind(2, progress.collisions);
+  statement.bind(3, progress.cpu_seconds);
+  statement.bind(4, lease.job_id);
+  statement.exec();
+}
+
+// The end of a lease. The job is where its last checkpoint is.
+void leave(SQLite::Database& sqlite, const Lease& lease, Status status) {
+  SQLite::Statement statement(sqlite, R"(
+    UPDATE jobs SET
+      status = :status,
+      owner_boot_id = NULL, owner_pid = NULL, owner_started = NULL, renewed = NULL,
+      tau = coalesce((SELECT tau FROM checkpoints WHERE job_id = :job_id), 0),
+      collisions = coalesce((SELECT collisions FROM checkpoints WHERE job_id = :job_id), 0),
+      finished = iif(:status = 'pending', NULL, )" +
+                                          now + R"()
+    WHERE job_id = :job_id)");
+  statement.bind(":status", std::string(name(status)));
+  statement.bind(":job_id", lease.job_id);
+  statement.exec();
+}
+
+void must_be_finite(const Lease& lease, const Sample& sample) {
+  const auto finite = [](const std::optional<double>& value) {
+    return !value || std::isfinite(*value);
+  };
+  const bool sound = std::isfinite(sample.tau) && std::isfinite(sample.time) &&
+                     finite(sample.temperature) && finite(sample.gamma_ratio) &&
+                     finite(sample.collision_rate) && finite(sample.pressure) &&
+                     finite(sample.a2) && finite(sample.a3) && finite(sample.a4) &&
+                     finite(sample.a5) && finite(sample.a6);
+  if (!sound)
+    throw Damage("job " + std::to_string(lease.job_id) + ": the sample at tau = " +
+                 std::to_string(sample.tau) + " holds a value that is not finite");
+}
+
+// A sample that is there already is kept. What the trajectory alone decides must have come out
+// the same; gamma_ratio may differ in its last digits between two machines' logarithms.
+void must_agree(SQLite::Database& sqlite, const Lease& lease, const Sample& again) {
+  SQLite::Statement statement(sqlite, "SELECT * FROM samples WHERE job_id = ? AND tau = ?");
+  statement.bind(1, lease.job_id);
+  statement.bind(2, again.tau);
+  statement.executeStep();
+  const Sample stored = sample(statement);
+  if (stored.time != again.time || stored.temperature != again.temperature)
+    throw Damage("job " + std::to_string(lease.job_id) +
+                 ": the sample at tau = " + std::to_string(again.tau) +
+                 " came out different when it was computed again; one of the two computations "
+                 "was disturbed, or the program that made the first has changed");
+}
+
+void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Sample>& samples) {
+  SQLite::Statement statement(sqlite, R"(
+    INSERT INTO samples VALUES (:job_id, :tau, :time, :temperature, :gamma_ratio,
+                                :collision_rate, :pressure, :a2, :a3, :a4, :a5, :a6)
+    ON CONFLICT DO NOTHING)");
+  for (const Sample& sample : samples) {
+    must_be_finite(lease, sample);
+    statement.reset();
+    statement.bind(":job_id", lease.job_id);
+    statement.bind(":tau", sample.tau);
+    statement.bind(":time", sample.time);
+    bind(statement, ":temperature", sample.temperature);
+    bind(statement, ":gamma_ratio", sample.gamma_ratio);
+    bind(statement, ":collision_rate", sample.collision_rate);
+    bind(statement, ":pressure", sample.pressure);
+    bind(statement, ":a2", sample.a2);
+    bind(statement, ":a3", sample.a3);
+    bind(statement, ":a4", sample.a4);
+    bind(statement, ":a5", sample.a5);
+    bind(statement, ":a6", sample.a6);
+    if (statement.exec() == 0) must_agree(sqlite, lease, sample);
+  }
+}
+
+void replace(SQLite::Database& sqlite, const Lease& lease, const Checkpoint& checkpoint,
+             std::uint64_t sum) {
+  SQLite::Statement drop(sqlite, "DELETE FROM checkpoint_chunks WHERE job_id = ?");
+  drop.bind(1, lease.job_id);
+  drop.exec();
+
+  SQLite::Statement header(
+      sqlite, "INSERT OR REPLACE INTO checkpoints VALUES (?, ?, ?, ?, ?, " + now + ")");
+  header.bind(1, lease.job_id);
+  header.bind(2, checkpoint.tau);
+  header.bind(3, checkpoint.collisions);
+  header.bind(4, static_cast<std::int64_t>(checkpoint.state.size()));
+  header.bind(5, static_cast<std::int64_t>(sum));
+  header.exec();
+
+  SQLite::Statement insert(sqlite, "INSERT INTO checkpoint_chunks VALUES (?, ?, ?)");
+  const std::span<const std::byte> state(checkpoint.state);
+  for (std::size_t begin = 0; begin < state.size(); begin += chunk_bytes) {
+    const auto chunk = state.subspan(begin, std::min(chunk_bytes, state.size() - begin));
+    insert.reset();
+    insert.bind(1, lease.job_id);
+    insert.bind(2, static_cast<std::int64_t>(begin / chunk_bytes));
+    insert.bindNoCopy(3, chunk.data(), static_cast<int>(chunk.size()));
+    insert.exec();
+  }
+
+  SQLite::Statement progress(sqlite, "UPDATE jobs SET attempts = 0 WHERE job_id = ?");
+  progress.bind(1, lease.job_id);
+  progress.exec();
+}
+
+// A commit, with its checksum already computed: nobody should wait for the write lock meanwhile.
+class Entry {
+ public:
+  Entry(const Lease& lease, const Commit& commit) : lease_(lease), commit_(commit) {
+    if (commit.checkpoint) sum_ = checksum(commit.checkpoint->state);
+  }
+
+  void write(Database& database) const {
+    must_hold(database, lease_);
+    insert(database.sqlite(), lease_, commit_.samples);
+    if (commit_.checkpoint) replace(database.sqlite(), lease_, *commit_.checkpoint, sum_);
+    report(database.sqlite(), lease_, commit_.progress);
+  }
+
+ private:
+  const Lease& lease_;
+  const Commit& commit_;
+  std::uint64_t sum_ = 0;
+};
+
+void replace(SQLite::Database& sqlite, const Lease& lease, const Results& results) {
+  SQLite::Statement statement(sqlite,
+                              "INSERT OR REPLACE INTO results VALUES (:job_id, :tau_c, :time_c)");
+  statement.bind(":job_id", lease.job_id);
+  bind(statement, ":tau_c", results.tau_c);
+  bind(statement, ":time_c", results.time_c);
+  statement.exec();
+}
+
+}  // namespace
+
+Store Store::create(const std::filesystem::path& path) {
+  return Store(std::make_unique<Database>(path, Access::create));
+}
+
+Store Store::open(const std::filesystem::path& path) {
+  return Store(std::make_unique<Database>(path, Access::write));
+}
+
+std::vector<Outcome> Store::add(const std::vector<Planned>& plan) {
+  return database().transaction([&] {
+    std::vector<Outcome> outcomes(plan.size());
+    for (const Kind kind : {Kind::equilibration, Kind::cooling})
+      for (std::size_t i = 0; i < plan.size(); ++i)
+        if (plan[i].job.kind == kind) outcomes[i] = schema::add(database().sqlite(), plan[i]);
+    return outcomes;
+  });
+}
+
+std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_version) {
+  return database().transaction([&]() -> std::optional<Claim> {
+    SQLite::Statement statement(database().sqlite(), R"(
+      UPDATE jobs SET status = 'running', lease = lease + 1, host = :host,
+                      owner_boot_id = :boot_id, owner_pid = :pid, owner_started = :started,
+                      code_version = :code_version, renewed = )" +
+                                                         now + R"(,
+                      started = coalesce(started, )" + now +
+                                                         R"()
+      WHERE job_id = (
+        SELECT jobs.job_id
+        FROM jobs LEFT JOIN jobs AS equilibration ON equilibration.job_id = jobs.equilibration_id
+        WHERE jobs.status = 'pending'
+          AND (jobs.kind = 'equilibration' OR equilibration.status = 'done')
+        ORDER BY jobs.kind = 'equilibration' DESC,
+                 coalesce(jobs.expected_cpu_seconds, 0) * (1 - jobs.tau / jobs.tau_max) DESC,
+                 jobs.particles * (jobs.tau_max - jobs.tau) DESC,
+                 jobs.job_id
+        LIMIT 1)
+      RETURNING *)");
+    statement.bind(":host", owner.host);
+    statement.bind(":boot_id", owner.boot_id);
+    statement.bind(":pid", owner.pid);
+    statement.bind(":started", owner.started);
+    statement.bind(":code_version", code_version);
+    if (!statement.executeStep()) return std::nullopt;
+    const JobRow row = job_row(statement);
+    return Claim{.lease = {row.job_id, integer(statement, "lease")},
+                 .job = row.job,
+                 .tau_max = row.tau_max,
+                 .checkpoint_every = row.checkpoint_every,
+                 .equilibration_id = row.equilibration_id,
+                 .attempts = row.attempts,
+                 .cpu_seconds = row.progress.cpu_seconds};
+  });
+}
+
+void Store::progress(const Lease& lease, const Progress& progress) {
+  database().transaction([&] {
+    must_hold(database(), lease);
+    report(database().sqlite(), lease, progress);
+  });
+}
+
+void Store::commit(const Lease& lease, const Commit& commit) {
+  const Entry entry(lease, commit);
+  database().transaction([&] { entry.write(database()); });
+}
+
+Status Store::finish(const Lease& lease, const Commit& commit,
+                     const std::optional<Results>& results, double tau_max) {
+  const Entry entry(lease, commit);
+  return database().transaction([&] {
+    SQLite::Database& sqlite = database().sqlite();
+    entry.write(database());
+    if (results) replace(sqlite, lease, *results);
+
+    SQLite::Statement row(sqlite, "SELECT tau_max FROM jobs WHERE job_id = ?");
+    row.bind(1, lease.job_id);
+    row.executeStep();
+    const bool extended = real(row, "tau_max") > tau_max;
+    const Status status = extended ? Status::pending : Status::done;
+    leave(sqlite, lease, status);
+    if (!extended) report(sqlite, lease, commit.progress);
+
+    SQLite::Statement clear(sqlite, "UPDATE jobs SET error = NULL, attempts = 0 WHERE job_id = ?");
+    clear.bind(1, lease.job_id);
+    clear.exec();
+    return status;
+  });
+}
+
+Status Store::fail(const Lease& lease, const std::string& error) {
+  return database().transaction([&] {
+    must_hold(database(), lease);
+    SQLite::Statement statement(database().sqlite(), R"(
+      UPDATE jobs SET attempts = attempts + 1, error = :error WHERE job_id = :job_id
+      RETURNING attempts)");
+    statement.bind(":error", error);
+    statement.bind(":job_id", lease.job_id);
+    statement.executeStep();
+    const bool last = integer(statement, "attempts") >= max_attempts;
+    const Status status = last ? Status::failed : Status::pending;
+    leave(database().sqlite(), lease, status);
+    return status;
+  });
+}
+
+void Store::release(const Lease& lease) {
+  database().transaction([&] {
+    must_hold(database(), lease);
+    leave(database().sqlite(), lease, Status::pending);
+  });
+}
+
+bool Store::reclaim(const Lease& lease) {
+  return database().transaction([&] {
+    const bool held = holds(database().sqlite(), lease);
+    if (held) leave(database().sqlite(), lease, Status::pending);
+    return held;
+  });
+}
+
+std::int64_t Store::retry_failed() {
+  return database().transaction([&] {
+    SQLite::Statement statement(database().sqlite(), R"(
+      UPDATE jobs SET status = 'pending', attempts = 0, finished = NULL WHERE status = 'failed')");
+    return static_cast<std::int64_t>(statement.exec());
+  });
+}
+
+bool Store::restart(std::int64_t job_id) {
+  return database().transaction([&] {
+    const auto change = [&](const char* sql) {
+      SQLite::Statement statement(database().sqlite(), sql);
+      statement.bind(1, job_id);
+      return statement.exec();
+    };
+    if (change(R"(
+          UPDATE jobs SET status = 'pending', attempts = 0, error = NULL, tau = 0, collisions = 0,
+                          finished = NULL
+          WHERE job_id = ? AND status <> 'running')") == 0)
+      return false;
+    change("DELETE FROM checkpoint_chunks WHERE job_id = ?");
+    change("DELETE FROM checkpoints WHERE job_id = ?");
+    return true;
+  });
+}
+
+}  // namespace haff::schema

@@ -1,0 +1,275 @@
+// The store: one SQLite file with everything a campaign knows (tables: 001-store.sql).
+//
+//   Store store = Store::create("campaign.db");
+//   store.add(plan);
+//   while (auto claim = store.claim(owner, code_version)) {
+//     ...
+//     store.commit(claim->lease, {.samples = samples, .checkpoint = checkpoint, .progress = ...});
+//     ...
+//     store.finish(claim->lease, last_commit, results, claim->tau_max);
+//   }
+//
+// What is promised. Every function that writes is one transaction: it happens entirely or not at
+// all, whenever the process is killed. Many processes on one machine may read and write at the
+// same time (WAL: readers never wait, writers wait for each other up to busy_timeout). At power
+// loss the newest transactions may be undone, in order, the store stays sound (synchronous =
+// NORMAL): since samples and the checkpoint that follows them are one transaction, what is undone
+// is computed again, with the same bits. A full disk undoes the transaction and is reported.
+//
+// One connection belongs to one thread, and must not be used across fork().
+// All functions throw the types of error.hpp.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "schema/error.hpp"
+#include "schema/job.hpp"
+#include "schema/query.hpp"
+
+namespace haff::schema {
+
+// Errors in a row, with no new checkpoint between them, after which a job is failed for good.
+inline constexpr int max_attempts = 3;
+
+// How long a writer waits for others before it gives up. A commit of a large checkpoint to a slow
+// disk takes seconds; several workers may queue.
+inline constexpr std::chrono::milliseconds busy_timeout{120'000};
+
+// Checkpoints are cut into BLOBs of this size. SQLite holds one whole in memory, and refuses any
+// above 1 GB. [bytes]
+inline constexpr std::size_t chunk_bytes = std::size_t{16} << 20;
+
+// ---- rows -------------------------------------------------------------------------------------
+
+// One row of samples; a value that does not exist (first sample, observable not asked for) is
+// empty, and NULL in the store. A value that is not finite is refused.
+struct Sample {
+  double tau = 0;                             // k sample_every [collisions per particle]
+  double time = 0;                            // true time [sigma sqrt(m/E(0))]
+  std::optional<double> temperature = {};     // T = (m/d) <v^2> [E(0)]
+  std::optional<double> gamma_ratio = {};     // gamma/gamma_0, middle of the interval before tau
+  std::optional<double> collision_rate = {};  // omega [per particle and time], same interval
+  std::optional<double> pressure = {};        // [E(0) sigma^-d], same interval
+  std::optional<double> a2 = {}, a3 = {}, a4 = {}, a5 = {}, a6 = {};  // Laguerre coefficients
+
+  bool operator==(const Sample&) const = default;
+};
+
+struct Results {
+  std::optional<double> tau_c = {};   // first tau with T_Haff(tau) = T(tau)/2
+  std::optional<double> time_c = {};  // the time of tau_c [sigma sqrt(m/E(0))]
+
+  bool operator==(const Results&) const = default;
+};
+
+// A state of the engine, encoded by the campaign.
+struct Checkpoint {
+  double tau = 0;
+  std::int64_t collisions = 0;
+  std::vector<std::byte> state = {};
+};
+
+// How far a job is.
+struct Progress {
+  double tau = 0;
+  std::int64_t collisions = 0;
+  double cpu_seconds = 0;  // over all attempts: what the claim said, plus the worker's own
+};
+
+// ---- planning ---------------------------------------------------------------------------------
+
+struct Planned {
+  Job job;
+  double tau_max = 0;
+  double checkpoint_every = 10;
+  std::optional<double> expected_cpu_seconds = {};  // to reach tau_max from the start
+};
+
+// What became, or would become, of one planned job. extended: it was there with a smaller
+// tau_max, which is now the larger one; done jobs are pending again. A collapsed job stays as it
+// is.
+enum class Outcome { added, extended, unchanged };
+
+// ---- working ----------------------------------------------------------------------------------
+
+// A process, told apart from every other that ever had its number.
+struct Owner {
+  std::string host;
+  std::string boot_id;  // changes when the host restarts
+  std::int64_t pid = 0;
+  std::int64_t started = 0;  // process start time, clock ticks since boot
+
+  bool operator==(const Owner&) const = default;
+};
+
+// The right to write to a job. The token grows with every claim, so that an old holder is known.
+struct Lease {
+  std::int64_t job_id = 0;
+  std::int64_t token = 0;
+};
+
+struct Claim {
+  Lease lease;
+  Job job;
+  double tau_max = 0;
+  double checkpoint_every = 0;
+  std::optional<std::int64_t> equilibration_id;  // a cooling job's; its checkpoint is the start
+  int attempts = 0;                              // errors in a row so far
+  double cpu_seconds = 0;                        // spent on it before
+};
+
+// What a worker has to say at once, written in one transaction: the samples before the
+// checkpoint and the checkpoint, so that the store never knows one without the other.
+struct Commit {
+  std::vector<Sample> samples = {};
+  std::optional<Checkpoint> checkpoint = {};  // replaces the job's older one
+  Progress progress = {};
+};
+
+struct RunningJob {
+  Lease lease;
+  Owner owner;
+  Job job;
+  double tau_max = 0;
+  Progress progress;
+  std::string renewed;  // last sign of life, UTC, ISO 8601
+};
+
+// ---- reading ----------------------------------------------------------------------------------
+
+struct CheckpointInfo {
+  std::int64_t job_id = 0;
+  double tau = 0;
+  std::int64_t collisions = 0;
+  std::int64_t bytes = 0;
+};
+
+// A row of jobs.
+struct JobRow {
+  std::int64_t job_id = 0;
+  Job job;
+  double tau_max = 0;
+  double checkpoint_every = 0;
+  std::optional<std::int64_t> equilibration_id;
+  Status status = Status::pending;
+  int attempts = 0;
+  std::optional<std::string> error;
+  Progress progress;
+  std::optional<double> expected_cpu_seconds;
+  std::string created;
+  std::optional<std::string> started, finished, code_version, host;
+};
+
+struct Summary {
+  std::map<Status, std::int64_t> jobs;  // every status is there, also with 0
+  std::int64_t claimable = 0;           // pending, could be claimed now
+  std::int64_t waiting = 0;             // pending, its equilibration is pending or running
+  std::int64_t blocked = 0;             // pending, its equilibration failed: retry that first
+  double cpu_seconds = 0;               // spent, all jobs
+  double expected_cpu_seconds = 0;      // for all jobs from start to tau_max, where known
+  double remaining_cpu_seconds = 0;     // of which not yet reached, in proportion to tau
+};
+
+// Reads a store, and cannot write it: SQLite refuses.
+class Reader {
+ public:
+  // Throws StoreError if there is no store at path, or one of another version.
+  explicit Reader(const std::filesystem::path& path);
+  ~Reader();
+  Reader(Reader&&) noexcept;
+  Reader& operator=(Reader&&) noexcept;
+
+  const std::filesystem::path& path() const;
+
+  Summary summary() const;
+  std::vector<JobRow> jobs() const;  // by kind, d, n, particles, e, ..., seed: a table's order
+  JobRow job(std::int64_t job_id) const;
+  std::optional<std::int64_t> find(const Job& job) const;
+  std::vector<RunningJob> running() const;
+
+  std::vector<Sample> samples(std::int64_t job_id) const;  // by tau
+  // The job's last sample with sample.tau <= tau: what a resumed job goes on from.
+  std::optional<Sample> last_sample(std::int64_t job_id, double tau) const;
+  std::optional<Results> results(std::int64_t job_id) const;
+
+  std::vector<CheckpointInfo> checkpoints() const;  // one a job at most, by job_id
+  // The job's newest checkpoint. Throws Damage if a chunk is missing or a bit is wrong.
+  std::optional<Checkpoint> checkpoint(std::int64_t job_id) const;
+
+  // What adding these jobs would do, in the order given. Changes nothing.
+  std::vector<Outcome> preview(const std::vector<Planned>& plan) const;
+
+  // One SQL statement that reads. On a Store too, SQLite is told to refuse writes meanwhile.
+  Query query(const std::string& sql) const;
+
+  // SQLite's integrity check and the foreign keys: one line a fault, none if all is sound.
+  std::vector<std::string> faults() const;
+
+ protected:
+  explicit Reader(std::unique_ptr<Database> database);
+  Database& database() const { return *database_; }
+
+ private:
+  std::unique_ptr<Database> database_;
+};
+
+// Reads and writes a store.
+class Store : public Reader {
+ public:
+  // The store at path, made if there is none, brought forward if it is of an older version.
+  // ":memory:" gives one that is gone when closed.
+  static Store create(const std::filesystem::path& path);
+  // The same, but there must be one.
+  static Store open(const std::filesystem::path& path);
+
+  // Add the jobs that are missing, extend those that are there with a smaller tau_max: one
+  // transaction, outcomes in the order given. A cooling job's equilibration must be in the plan
+  // (anywhere) or in the store: std::logic_error otherwise. A plan names a job once.
+  std::vector<Outcome> add(const std::vector<Planned>& plan);
+
+  // Take a job that can be run: equilibrations first, then those whose remaining time is longest,
+  // so that the last ones to finish are short. Nothing if none can be run now (see Summary).
+  std::optional<Claim> claim(const Owner& owner, const std::string& code_version);
+
+  // Still alive, and so far. Throws LeaseLost like everything below.
+  void progress(const Lease& lease, const Progress& progress);
+
+  // Samples that are there already are kept as they are; if time or temperature came out
+  // different, Damage. A checkpoint sets the job's attempts back to 0.
+  void commit(const Lease& lease, const Commit& commit);
+
+  // The last commit of a job, its results (cooling only), and its end. tau_max: what the worker
+  // ran to. Returns done, or pending if a plan extended the job meanwhile.
+  Status finish(const Lease& lease, const Commit& commit, const std::optional<Results>& results,
+                double tau_max);
+
+  // An error ended this attempt: pending again, or failed if it was the last. Returns which.
+  Status fail(const Lease& lease, const std::string& error);
+
+  // Give the job back unfinished, at its last checkpoint; costs no attempt.
+  void release(const Lease& lease);
+
+  // The same for a job whose owner is dead. False if it was no longer held under this lease.
+  bool reclaim(const Lease& lease);
+
+  // failed -> pending with all attempts. Returns how many.
+  std::int64_t retry_failed();
+
+  // For a job whose checkpoint is damaged: throws it away and makes the job pending with all
+  // attempts. Its samples and results stay and are compared when they come out again. False, and
+  // nothing done, if a worker holds the job.
+  bool restart(std::int64_t job_id);
+
+ private:
+  using Reader::Reader;
+};
+
+}  // namespace haff::schema
