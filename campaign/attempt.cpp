@@ -1,0 +1,151 @@
+#include "campaign/attempt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "campaign/checkpoint.hpp"
+#include "campaign/cpu_time.hpp"
+#include "campaign/job_text.hpp"
+#include "campaign/measurement.hpp"
+#include "campaign/restore.hpp"
+#include "campaign/signals.hpp"
+
+namespace haff::campaign {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Some 10 ms of a gas in cache, 100 ms of a large and clustered one. [pair collisions]
+constexpr std::int64_t stretch = 20'000;
+
+constexpr auto tell_every = 200ms;  // progress bars
+constexpr auto renew_every = 5s;    // the lease, and tau as `campaign status` shows it
+
+// Who is asked to stop may go on as far as this to keep the work since the last checkpoint. [s]
+constexpr double patience = 1.0;
+
+}  // namespace
+
+Attempt::Attempt(schema::Store& store, const schema::Claim& claim, const Reporter& reporter)
+    : store_(store), claim_(claim), reporter_(reporter), cpu_at_start_(cpu_seconds()) {}
+
+std::optional<engine::State> Attempt::stored_state() const {
+  return newest_state(store_, claim_.lease.job_id, job());
+}
+
+engine::State Attempt::state_of_equilibration() const {
+  const std::int64_t id = claim_.equilibration_id.value();
+  auto state = newest_state(store_, id, store_.job(id).job);
+  if (!state)
+    throw std::runtime_error(
+        fmt::format("the equilibration it starts from, job {}, is done but "
+                    "its state is gone; `campaign retry` computes it again",
+                    id));
+  return *std::move(state);
+}
+
+void Attempt::begin(const engine::State& state) {
+  samples_.clear();
+  if (state.collisions > 0) samples_ = store_.samples(claim_.lease.job_id);
+  // What was sampled after this state will come out again, and is compared then.
+  std::erase_if(samples_, [&](const schema::Sample& sample) {
+    return engine::collisions_at(sample.tau, job().particles) > state.collisions;
+  });
+  committed_ = samples_.size();
+  gas_.emplace(engine::Model{.restitution = job().e}, state);
+  speed_from_ = gas_->collisions();
+  speed_since_ = renewed_ = Clock::now();
+  tell();
+}
+
+bool Attempt::advance_to(std::int64_t collisions) {
+  while (gas_->collisions() < collisions) {
+    gas_->run_to(std::min(collisions, gas_->collisions() + stretch));
+    tell();
+    if (is_asked_to_leave() && !is_near_synchronization()) return false;
+  }
+  return true;
+}
+
+void Attempt::sample(double tau) {
+  const auto previous =
+      samples_.empty() ? std::nullopt : std::optional<schema::Sample>(samples_.back());
+  samples_.push_back(measure(*gas_, job(), tau, previous));
+}
+
+void Attempt::commit(double tau) {
+  const std::vector<schema::Sample> fresh(
+      samples_.begin() + static_cast<std::ptrdiff_t>(committed_), samples_.end());
+  store_.commit(claim_.lease,
+                {.samples = fresh, .checkpoint = checkpoint(tau), .progress = progress(tau)});
+  committed_ = samples_.size();
+}
+
+bool Attempt::is_asked_to_leave() const {
+  return stop_signal() != 0;
+}
+
+Ending Attempt::leave() {
+  store_.release(claim_.lease);
+  return Ending::left;
+}
+
+Ending Attempt::finish(std::optional<double> synchronization_tau,
+                       const std::optional<schema::Results>& results) {
+  schema::Commit last;
+  last.samples.assign(samples_.begin() + static_cast<std::ptrdiff_t>(committed_), samples_.end());
+  if (synchronization_tau) last.checkpoint = checkpoint(*synchronization_tau);
+  last.progress = progress(synchronization_tau.value_or(claim_.tau_max));
+  store_.finish(claim_.lease, last, results, claim_.tau_max);
+  return Ending::finished;
+}
+
+std::string Attempt::place() const {
+  if (!gas_) return fmt::format("seed {}, before the first collision", job().seed);
+  return fmt::format("seed {}, tau {:.6g}, {} collisions", job().seed, tau(), gas_->collisions());
+}
+
+void Attempt::tell() {
+  const auto now = Clock::now();
+  if (now - told_ >= tell_every) {
+    told_ = now;
+    reporter_.send(ProgressReport{claim_.lease.job_id, describe(job()), tau(), claim_.tau_max,
+                                  collisions_per_second()});
+  }
+  if (now - renewed_ >= renew_every) {
+    renewed_ = now;
+    store_.progress(claim_.lease, progress(tau()));
+  }
+}
+
+bool Attempt::is_near_synchronization() const {
+  const double period = engine::synchronization_period;
+  const double left = period - std::fmod(tau(), period);
+  return left * job().particles / 2 < patience * collisions_per_second();
+}
+
+double Attempt::collisions_per_second() const {
+  const std::chrono::duration<double> elapsed = Clock::now() - speed_since_;
+  const auto collisions = static_cast<double>(gas_->collisions() - speed_from_);
+  return elapsed.count() > 0 ? collisions / elapsed.count() : 0;
+}
+
+double Attempt::tau() const {
+  return 2 * static_cast<double>(gas_->collisions()) / job().particles;
+}
+
+schema::Progress Attempt::progress(double tau) const {
+  return {.tau = tau,
+          .collisions = gas_->collisions(),
+          .cpu_seconds = claim_.cpu_seconds + cpu_seconds() - cpu_at_start_};
+}
+
+schema::Checkpoint Attempt::checkpoint(double tau) const {
+  return {.tau = tau, .collisions = gas_->collisions(), .state = encode(gas_->state())};
+}
+
+}  // namespace haff::campaign

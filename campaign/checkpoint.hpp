@@ -1,0 +1,30 @@
+// A checkpoint: the state of a gas as bytes, and back.
+//
+// Layout, little-endian:
+//   8 bytes  "HAFFGAS\n"
+//   u32      version
+//   u32      number of fields
+//   fields   u8 length and name, u8 size of one element, u64 number of elements, elements
+//   u64      checksum of everything before
+// Fields are found by name, so a reader can say which one is missing.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "engine/state.hpp"
+
+namespace haff::campaign {
+
+struct DamagedCheckpoint : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+std::vector<std::byte> encode(const engine::State& state);
+
+// Throws DamagedCheckpoint unless every bit is as encode() wrote it.
+engine::State decode(std::span<const std::byte> bytes);
+
+}  // namespace haff::campaign

@@ -1,0 +1,42 @@
+// The command line: what was asked for, and with what.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "campaign/figures.hpp"
+#include "campaign/plan.hpp"
+#include "campaign/query.hpp"
+#include "campaign/run.hpp"
+
+namespace haff::campaign {
+
+struct StatusCommand {
+  bool json = false;
+};
+struct QueryCommand {
+  std::string sql;
+  Format format = Format::table;
+};
+struct VerifyCommand {};
+struct RetryCommand {};
+struct WorkerCommand {  // what `run` starts; not for people
+  int report_descriptor = 0;
+};
+
+using Command = std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest,
+                             VerifyCommand, RetryCommand, WorkerCommand>;
+
+struct CommandLine {
+  std::filesystem::path store;
+  bool verbose = false;
+  Command command;
+};
+
+// The exit code if there is nothing more to do: help or version printed, or an error reported.
+using Parsed = std::variant<CommandLine, int>;
+Parsed parse_command_line(int argc, const char* const* argv);
+
+}  // namespace haff::campaign

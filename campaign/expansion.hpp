@@ -1,0 +1,15 @@
+// From a grid to jobs: the product of its lists, each job once, with the equilibrations they need.
+#pragma once
+
+#include <vector>
+
+#include "schema/grid.hpp"
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+// Cooling jobs in the order of the grid, each preceded by its equilibration where that is new.
+// A job named twice is one with the larger tau_max and the closer checkpoints.
+std::vector<schema::Planned> expand(const schema::Grid& grid);
+
+}  // namespace haff::campaign

@@ -1,0 +1,46 @@
+// One of the paper's figures: what it shows, what it needs, how it is made of averages.
+//
+// To add a figure: write figure_NN.cpp with its function, and its line in the table of
+// figures.cpp.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/averages.hpp"
+#include "campaign/plot.hpp"
+
+namespace haff::campaign {
+
+// The density of the paper's base case [sigma^-d].
+inline constexpr double base_density = 0.40;
+
+// e with at least two decimals, as the paper writes it: 0.80, 0.865.
+std::string restitution_text(double e);
+
+// Where the measured curves come from, for captions: "n = 0.40; e = 0.80, 0.90: N = 32 000, mean
+// of 2 realizations."
+std::string provenance(const std::vector<MeanSeries>& series);
+
+// Said of error bars or bands, if any series has them.
+std::string error_note(const std::vector<MeanSeries>& series);
+
+// tau up to which a figure of the homogeneous stage shows a series: somewhat beyond tau_c.
+double homogeneous_stage(const MeanSeries& series);
+
+// Only the points at x <= end.
+Curve until(double end, Curve curve);
+
+// A measured curve's name, gas, realizations and colour, without points.
+Curve measured_curve(const MeanSeries& series);
+
+// The plots; nothing if the averages lack their data.
+std::optional<Plot> figure_01(const Averages& averages);
+std::optional<Plot> figure_02(const Averages& averages);
+std::optional<Plot> figure_04(const Averages& averages);
+std::optional<Plot> figure_05(const Averages& averages);
+std::optional<Plot> figure_11(const Averages& averages);
+std::optional<Plot> figure_13(const Averages& averages);
+
+}  // namespace haff::campaign

@@ -1,0 +1,18 @@
+// Running gnuplot on a script.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace haff::campaign {
+
+// gnuplot is not installed. The message says how to install it.
+struct GnuplotMissing : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Waits for its end. Throws GnuplotMissing, or std::runtime_error with gnuplot's own words if it
+// fails. Warnings, of fonts say, are not errors.
+void run_gnuplot(const std::string& script);
+
+}  // namespace haff::campaign

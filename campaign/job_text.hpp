@@ -1,0 +1,16 @@
+// Jobs in words, for tables, logs and messages.
+#pragma once
+
+#include <string>
+
+#include "schema/job.hpp"
+
+namespace haff::campaign {
+
+// "cooling e=0.8 n=0.4 N=32000 seed 1"; an equilibration has no e.
+std::string describe(const schema::Job& job);
+
+// The shortest text that reads back as the same number.
+std::string number_text(double value);
+
+}  // namespace haff::campaign

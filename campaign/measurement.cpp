@@ -1,0 +1,113 @@
+#include "campaign/measurement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "analysis/cooling.hpp"
+#include "analysis/moments.hpp"
+
+namespace haff::campaign {
+namespace {
+
+// A Gaussian gas is taken for none once in some 10^4 checks (a_4 has heavy tails at small N); it
+// is then run on, which costs time and nothing else.
+constexpr double standard_errors = 4;
+
+bool asks_for(const schema::Job& job, std::string_view observable) {
+  return std::find(job.observables.begin(), job.observables.end(), observable) !=
+         job.observables.end();
+}
+
+std::optional<double> if_finite(double value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+void measure_temperature(schema::Sample& sample, double temperature, double virial,
+                         double collisions, const schema::Job& job,
+                         const std::optional<schema::Sample>& previous) {
+  sample.temperature = temperature;
+  if (!previous || !previous->temperature) return;
+  const double elapsed = sample.time - previous->time;
+  const double before = *previous->temperature;
+  sample.gamma_ratio = if_finite(
+      analysis::gamma_ratio(before, temperature, sample.tau - previous->tau, job.e, job.d));
+  sample.collision_rate = if_finite(analysis::collision_rate(collisions, job.particles, elapsed));
+  sample.pressure = if_finite(analysis::pressure(job.n, 0.5 * (before + temperature), virial,
+                                                 job.particles, elapsed, job.d));
+}
+
+void measure_laguerre(schema::Sample& sample, const analysis::LaguerreCoefficients& a) {
+  sample.a2 = if_finite(a[2]);
+  sample.a3 = if_finite(a[3]);
+  sample.a4 = if_finite(a[4]);
+  sample.a5 = if_finite(a[5]);
+  sample.a6 = if_finite(a[6]);
+}
+
+}  // namespace
+
+schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double tau,
+                       const std::optional<schema::Sample>& previous) {
+  schema::Sample sample;
+  sample.tau = tau;
+  sample.time = gas.time();
+
+  const analysis::Moments moments = analysis::moments(gas.velocities(), job.d);
+  const engine::Tally tally = gas.take_tally();
+  if (asks_for(job, "temperature")) {
+    const double temperature = std::ldexp(moments.temperature, -2 * gas.exponent());
+    const std::int64_t collisions =
+        previous ? gas.collisions() - engine::collisions_at(previous->tau, job.particles) : 0;
+    measure_temperature(sample, temperature, tally.virial, static_cast<double>(collisions), job,
+                        previous);
+  }
+  if (asks_for(job, "laguerre")) measure_laguerre(sample, moments.laguerre);
+  return sample;
+}
+
+schema::Results results(const std::vector<schema::Sample>& samples, const schema::Job& job) {
+  std::vector<double> tau;
+  std::vector<double> temperature;
+  for (const schema::Sample& sample : samples) {
+    if (!sample.temperature) return {};
+    tau.push_back(sample.tau);
+    temperature.push_back(*sample.temperature);
+  }
+  const auto tau_c = analysis::tau_c(tau, temperature, job.e, job.d);
+  if (!tau_c) return {};
+
+  const auto after = std::lower_bound(
+      samples.begin(), samples.end(), *tau_c,
+      [](const schema::Sample& sample, double wanted) { return sample.tau < wanted; });
+  if (after == samples.begin() || after == samples.end()) return {tau_c, std::nullopt};
+  const schema::Sample& left = *(after - 1);
+  const double part = (*tau_c - left.tau) / (after->tau - left.tau);
+  return {tau_c, left.time + part * (after->time - left.time)};
+}
+
+double equilibrium_laguerre(int l, const schema::Job& job) {
+  const double dimensions = job.d * (job.particles - 1.0);
+  double moment = 1;  // <c^2k> over its Gaussian value
+  double binomial = 1;
+  double sum = 0;
+  for (int k = 0; k <= l; ++k) {
+    sum += (k % 2 == 0 ? 1 : -1) * binomial * moment;
+    binomial *= static_cast<double>(l - k) / (k + 1);
+    moment /= 1 + 2.0 * k / dimensions;
+  }
+  return sum;
+}
+
+bool is_equilibrated(const schema::Sample& sample, const schema::Job& job) {
+  const std::array coefficients{sample.a2, sample.a3, sample.a4};
+  for (int l = 2; l <= 4; ++l) {
+    const auto& a = coefficients[static_cast<std::size_t>(l - 2)];
+    const double allowed = standard_errors * analysis::laguerre_noise(l, job.particles, job.d);
+    if (!a || !(std::abs(*a - equilibrium_laguerre(l, job)) <= allowed)) return false;
+  }
+  return true;
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,136 @@
+#include "campaign/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "campaign/command_text.hpp"
+#include "campaign/duration.hpp"
+#include "campaign/exit_code.hpp"
+#include "campaign/expansion.hpp"
+#include "campaign/forecast.hpp"
+#include "campaign/job_text.hpp"
+#include "campaign/machine.hpp"
+#include "campaign/text_table.hpp"
+#include "schema/grid.hpp"
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+namespace {
+
+using schema::Outcome;
+using schema::Planned;
+
+// Jobs of one line of the table.
+struct Group {
+  std::map<Outcome, int> outcomes;
+  int jobs = 0;
+  double cpu_seconds = 0;
+  double disk_bytes = 0;
+};
+
+// Equilibrations first, then by e, n, N.
+using GroupKey = std::tuple<schema::Kind, double, double, std::uint32_t, double>;
+
+GroupKey group_of(const Planned& plan) {
+  return {plan.job.kind, plan.job.e, plan.job.n, plan.job.particles, plan.tau_max};
+}
+
+void expect(std::vector<Planned>& jobs, Forecast& forecast) {
+  for (Planned& job : jobs) job.expected_cpu_seconds = forecast.cpu_seconds(job);
+}
+
+std::string counts_text(const std::map<Outcome, int>& outcomes, bool dry_run) {
+  const auto count = [&](Outcome outcome) {
+    const auto found = outcomes.find(outcome);
+    return found == outcomes.end() ? 0 : found->second;
+  };
+  const int added = count(Outcome::added);
+  const int extended = count(Outcome::extended);
+  if (added == 0 && extended == 0)
+    return dry_run ? "nothing would be added, all are in the store"
+                   : "nothing was added, all are in the store";
+  std::string text = fmt::format("{} {}", added, dry_run ? "would be added" : "added");
+  if (extended > 0) text += fmt::format(", {} extended to a larger tau_max", extended);
+  if (const int there = count(Outcome::unchanged)) text += fmt::format(", {} already there", there);
+  return text;
+}
+
+void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcomes,
+           Forecast& forecast, const PlanOptions& options) {
+  std::map<GroupKey, Group> groups;
+  std::map<Outcome, int> all;
+  double cpu_seconds = 0;
+  double memory = 0;
+  double disk = 0;
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    const double expected = jobs[k].expected_cpu_seconds.value_or(0);
+    Group& group = groups[group_of(jobs[k])];
+    ++group.jobs;
+    ++group.outcomes[outcomes[k]];
+    group.cpu_seconds += expected;
+    group.disk_bytes += forecast.disk_bytes(jobs[k]);
+    ++all[outcomes[k]];
+    cpu_seconds += expected;
+    memory = std::max(memory, forecast.memory_bytes(jobs[k].job));
+    disk += forecast.disk_bytes(jobs[k]);
+  }
+
+  TextTable table({{"kind", Align::left},
+                   {"e"},
+                   {"n"},
+                   {"N"},
+                   {"tau_max"},
+                   {"jobs"},
+                   {"new"},
+                   {"extended"},
+                   {"CPU time"},
+                   {"disk"}});
+  for (auto& [key, group] : groups) {
+    const auto& [kind, e, n, particles, tau_max] = key;
+    table.add({std::string(name(kind)), number_text(e), number_text(n), count_text(particles),
+               number_text(tau_max), count_text(group.jobs),
+               count_text(group.outcomes[Outcome::added]),
+               count_text(group.outcomes[Outcome::extended]), duration_text(group.cpu_seconds),
+               bytes_text(group.disk_bytes)});
+  }
+  fmt::print("{}\n", table.text());
+  fmt::print("{} jobs: {}.\n", jobs.size(), counts_text(all, options.dry_run));
+  fmt::print("Expected in all: {} of CPU time ({}), {} of memory for each worker, {} on disk.\n",
+             duration_text(cpu_seconds), forecast.source(), bytes_text(memory), bytes_text(disk));
+  if (options.dry_run)
+    fmt::print("Nothing was written. Next: {}\n",
+               command_text(fmt::format("plan {}", options.grid.string()), options.store));
+  else
+    fmt::print("Next: {}\n", command_text("run", options.store));
+}
+
+}  // namespace
+
+int plan(const PlanOptions& options) {
+  std::vector<Planned> jobs = expand(schema::read_grid(options.grid, machine_memory()));
+  std::vector<Outcome> outcomes;
+  if (!options.dry_run) {
+    schema::Store store = schema::Store::create(options.store);
+    Forecast forecast(store.jobs());
+    expect(jobs, forecast);
+    outcomes = store.add(jobs);
+    print(jobs, outcomes, forecast, options);
+  } else if (std::filesystem::exists(options.store)) {
+    const schema::Reader store(options.store);
+    Forecast forecast(store.jobs());
+    expect(jobs, forecast);
+    print(jobs, store.preview(jobs), forecast, options);
+  } else {
+    Forecast forecast({});
+    expect(jobs, forecast);
+    print(jobs, std::vector(jobs.size(), Outcome::added), forecast, options);
+  }
+  return exit_complete;
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,96 @@
+// A plot: curves in panels, written as a table (CSV) and as a script for gnuplot.
+//
+// The table holds every point; the picture thins symbols so that they can be told apart.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace haff::campaign {
+
+enum class Look { symbols, line, dashed, dotted };
+
+// Where a curve comes from, in the table's column `kind`.
+enum class Source { measured, theory, published };
+
+struct Curve {
+  std::string name = {};    // in the table's column `curve`
+  std::string legend = {};  // gnuplot's enhanced text; empty: not in the legend
+  Source source = Source::measured;
+
+  // What it is of, for the table; empty where it is of none in particular.
+  std::optional<double> e = {}, n = {};
+  std::optional<std::int64_t> particles = {};
+
+  std::vector<double> x = {}, y = {};
+  std::vector<double> error = {};               // standard error of y, NaN or empty: none
+  std::vector<std::int64_t> realizations = {};  // averaged at each point; empty for theory
+
+  // In the picture. A curve without points is an entry of the legend only.
+  Look look = Look::line;
+  std::string colour = "#000000";
+  int symbol = 7;      // gnuplot's point type
+  double size = 0.55;  // of symbols, in gnuplot's unit
+  double width = 1.8;  // of lines [pt]
+};
+
+// Errors are drawn as bars on symbols and as a band behind lines.
+
+struct Axis {
+  std::string label = {};   // enhanced text
+  std::string column = {};  // its name in the table
+  bool logarithmic = false;
+  std::optional<double> low = {}, high = {};
+  std::string tics = {};  // further gnuplot words for tics, e.g. "10"
+};
+
+struct Panel {
+  std::string name = "main";  // in the table's column `panel`
+  Axis x, y;
+  std::vector<Curve> curves = {};
+  std::string legend = "top right";        // its place, gnuplot's words; "none" for none
+  std::vector<std::string> commands = {};  // of gnuplot, for what is no curve: labels, arrows
+  bool small = false;                      // smaller type, for an inset
+  // Left, right, bottom, top of the axes as fractions of the picture, for an inset.
+  std::optional<std::array<double, 4>> frame = {};
+};
+
+struct Plot {
+  std::vector<Panel> panels;  // the first fills the picture, others are insets; same columns
+  std::string caption = {};   // plain text
+};
+
+// Least and largest y of what these curves draw, error bars included; {0, 1} if there is nothing.
+struct Range {
+  double low, high;
+  double width() const { return high - low; }
+};
+Range y_range(const std::vector<Curve>& curves, bool logarithmic = false);
+
+// The power of ten that leaves some room below a value: where a logarithmic axis ends.
+double decade_below(double value);
+
+// The nearest of 1, 2, 5, 10 times a power of ten from above: a distance between tics.
+double round_step(double at_least);
+
+// Colours that stay apart for the colour-blind and in grey: M. Okabe and K. Ito (2008) for up to
+// six curves, an even walk through viridis for more.
+std::string colour(std::size_t place, std::size_t of);
+
+// The table: a line of column names, then a row a point, reals with 17 digits, absent values
+// empty. Throws std::runtime_error if the file cannot be written.
+void write_table(const Plot& plot, const std::filesystem::path& file);
+
+enum class Format { svg, png };
+std::string gnuplot_script(const Plot& plot, const std::filesystem::path& picture, Format format);
+
+// What gnuplot leaves undone in its SVG: blanks next to a change of font, which some viewers drop,
+// are kept, and the caption is the picture's title, for those who listen to it. Captions hold no
+// character that XML reserves.
+void finish_svg(const Plot& plot, const std::filesystem::path& picture);
+
+}  // namespace haff::campaign

@@ -1,0 +1,21 @@
+// Who a process is, and whether it still lives.
+//
+// A process id alone is not enough: ids are used again, machines restart, containers number
+// their processes on their own. So the owner of a job is named by its host, the boot of the
+// kernel with the namespace ids are counted in, its id and the moment it started.
+#pragma once
+
+#include <sys/types.h>
+
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+schema::Owner this_process();
+schema::Owner child_process(pid_t id);  // not yet buried
+
+// Nothing can be told about another host, nor about another container on this one.
+enum class Life { alive, dead, unknown };
+Life life_of(const schema::Owner& process);
+
+}  // namespace haff::campaign

@@ -1,0 +1,59 @@
+#include "campaign/restore.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "campaign/job_text.hpp"
+#include "campaign/soundness.hpp"
+#include "engine/simulation.hpp"
+
+namespace haff::campaign {
+namespace {
+
+// L = (N/n)^(1/3) comes from a C library's cube root, which may differ in its last bit. [relative]
+constexpr double box_rounding = 1e-14;
+
+std::optional<std::string> contradiction(const engine::State& state,
+                                         const schema::Checkpoint& checkpoint,
+                                         const schema::Job& job) {
+  if (state.particles() != job.particles)
+    return fmt::format("it holds {} particles, the job has {}", state.particles(), job.particles);
+  const double box = std::cbrt(job.particles / job.n);
+  if (!(std::abs(state.box - box) <= box_rounding * box))
+    return fmt::format("its box has side {}, the job's {}", state.box, box);
+  if (state.collisions != checkpoint.collisions ||
+      state.collisions != engine::collisions_at(checkpoint.tau, job.particles))
+    return fmt::format("it holds the state after {} collisions, which is not tau = {}",
+                       state.collisions, checkpoint.tau);
+  return unsoundness(state);
+}
+
+}  // namespace
+
+engine::State restore(const schema::Checkpoint& checkpoint, const schema::Job& job) {
+  engine::State state = decode(checkpoint.state);
+  if (const auto wrong = contradiction(state, checkpoint, job)) throw DamagedCheckpoint(*wrong);
+  return state;
+}
+
+std::optional<engine::State> newest_state(const schema::Reader& store, std::int64_t job_id,
+                                          const schema::Job& job) {
+  const auto damaged = [&](const std::exception& why) {
+    return DamagedCheckpoint(
+        fmt::format("the checkpoint of job {} ({}) is damaged and was not used: {}; "
+                    "`campaign retry` computes that job again from its start",
+                    job_id, describe(job), why.what()));
+  };
+  try {
+    const auto checkpoint = store.checkpoint(job_id);
+    if (!checkpoint) return std::nullopt;
+    return restore(*checkpoint, job);
+  } catch (const schema::Damage& damage) {
+    throw damaged(damage);
+  } catch (const DamagedCheckpoint& damage) {
+    throw damaged(damage);
+  }
+}
+
+}  // namespace haff::campaign

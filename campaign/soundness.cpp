@@ -1,0 +1,137 @@
+#include "campaign/soundness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace haff::campaign {
+namespace {
+
+using engine::State;
+using engine::Vector;
+
+double distance2(const Vector& a, const Vector& b, double box) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    double r = b[k] - a[k];
+    r -= std::nearbyint(r / box) * box;
+    sum += r * r;
+  }
+  return sum;
+}
+
+// Particles sorted into cells no smaller than a diameter: partners are at most one cell away.
+class Cells {
+ public:
+  explicit Cells(const State& state) : state_(state) {
+    // More cells than particles gain nothing, however dilute the gas.
+    const double most = std::cbrt(static_cast<double>(state.particles())) + 1;
+    side_ = static_cast<int>(std::max(1.0, std::floor(std::min(state.box, most))));
+    begin_.resize(static_cast<std::size_t>(side_) * side_ * side_ + 1);
+    for (const Vector& r : state.position) ++begin_[cell_of(r) + 1];
+    for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
+    members_.resize(state.position.size());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t i = 0; i < members_.size(); ++i)
+      members_[next[cell_of(state.position[i])]++] = i;
+  }
+
+  // Calls visit(i, j) for every pair in the same or in neighbouring cells, some of them twice.
+  template <class Visit>
+  void for_each_pair(Visit&& visit) const {
+    const int reach = side_ < 3 ? side_ - 1 : 1;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      const auto home = coordinates(state_.position[i]);
+      for (int x = -reach; x <= reach; ++x)
+        for (int y = -reach; y <= reach; ++y)
+          for (int z = -reach; z <= reach; ++z) {
+            const std::size_t c = index({home[0] + x, home[1] + y, home[2] + z});
+            for (std::size_t k = begin_[c]; k < begin_[c + 1]; ++k)
+              if (i < members_[k]) visit(i, members_[k]);
+          }
+    }
+  }
+
+ private:
+  using Coordinates = std::array<int, 3>;
+
+  Coordinates coordinates(const Vector& r) const {
+    Coordinates cell{};
+    for (std::size_t k = 0; k < 3; ++k)
+      cell[k] = std::min(side_ - 1, static_cast<int>(r[k] / state_.box * side_));
+    return cell;
+  }
+  std::size_t index(Coordinates cell) const {
+    for (int& c : cell) c = (c + side_) % side_;
+    const auto side = static_cast<std::size_t>(side_);
+    return (static_cast<std::size_t>(cell[0]) * side + static_cast<std::size_t>(cell[1])) * side +
+           static_cast<std::size_t>(cell[2]);
+  }
+  std::size_t cell_of(const Vector& r) const { return index(coordinates(r)); }
+
+  const State& state_;
+  int side_ = 1;
+  std::vector<std::size_t> begin_;
+  std::vector<std::size_t> members_;
+};
+
+bool is_finite(const Vector& v) {
+  return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
+}
+
+std::optional<std::string> unsound_numbers(const State& state) {
+  const std::size_t particles = state.id.size();
+  if (particles < 2 || state.position.size() != particles || state.velocity.size() != particles)
+    return fmt::format("{} ids, {} positions and {} velocities do not make a gas", particles,
+                       state.position.size(), state.velocity.size());
+  if (!std::isfinite(state.box) || state.box < 2)
+    return fmt::format("box side {} (at least 2 sigma expected)", state.box);
+  if (state.collisions < 0 || !std::isfinite(state.time) || state.time < 0)
+    return fmt::format("time {} after {} collisions", state.time, state.collisions);
+  if (!std::isfinite(state.tally.dissipated) || !std::isfinite(state.tally.virial) ||
+      !std::isfinite(state.momentum_removed))
+    return "a sum over collisions is not finite";
+
+  std::vector<bool> seen(particles);
+  for (std::size_t i = 0; i < particles; ++i) {
+    const std::uint32_t id = state.id[i];
+    if (id >= particles || seen[id]) return fmt::format("particle id {} twice or too large", id);
+    seen[id] = true;
+    if (!is_finite(state.velocity[i]) || !is_finite(state.position[i]))
+      return fmt::format("particle {}: position or velocity is not finite", id);
+    for (const double x : state.position[i])
+      if (x < 0 || x >= state.box)
+        return fmt::format("particle {}: position {} outside the box [0, {})", id, x, state.box);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> deepest_overlap(const State& state) {
+  constexpr double closest2 = (1 - allowed_overlap) * (1 - allowed_overlap);
+  double least2 = closest2;
+  std::pair<std::size_t, std::size_t> pair;
+  Cells(state).for_each_pair([&](std::size_t i, std::size_t j) {
+    const double r2 = distance2(state.position[i], state.position[j], state.box);
+    if (r2 < least2) {
+      least2 = r2;
+      pair = {i, j};
+    }
+  });
+  if (least2 == closest2) return std::nullopt;
+  return fmt::format("particles {} and {} overlap by {:.3g} sigma ({:.0e} allowed)",
+                     state.id[pair.first], state.id[pair.second], 1 - std::sqrt(least2),
+                     allowed_overlap);
+}
+
+}  // namespace
+
+std::optional<std::string> unsoundness(const State& state) {
+  if (auto wrong = unsound_numbers(state)) return wrong;
+  return deepest_overlap(state);
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,13 @@
+// Whether a run still has something to do, or to wait for.
+#pragma once
+
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+// Jobs of others count too: they free jobs that wait for them, or come back unfinished.
+inline bool may_have_work(const schema::Summary& summary) {
+  return summary.claimable + summary.waiting + summary.jobs.at(schema::Status::running) > 0;
+}
+
+}  // namespace haff::campaign
