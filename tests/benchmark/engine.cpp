@@ -1,0 +1,90 @@
+// How fast is the engine? Collisions per second of a gas that has been warmed up.
+//
+//   engine_benchmark --N 4000 --n 0.4 --e 1 --warmup 20 --tau 20 --json
+//
+// Prints the rate (synchronizations included), memory and a hash of the final state: two builds
+// that print the same hash have computed the same trajectory.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "engine/initial.hpp"
+#include "engine/simulation.hpp"
+
+using namespace haff;
+
+namespace {
+
+// FNV-1a over the bits of all velocities.
+std::string state_hash(const engine::Simulation& gas) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const engine::Vector& v : gas.velocities())
+    for (const double component : v) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &component, sizeof bits);
+      hash = (hash ^ bits) * 0x100000001b3u;
+    }
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::uint32_t particles = 4000;
+  double n = 0.4;
+  double e = 1;
+  std::uint64_t seed = 1;
+  double warmup = 20;
+  double tau = 20;
+  bool scalar = false;
+  bool json = false;
+  CLI::App app("Collisions per second of the event-driven engine");
+  app.add_option("--N", particles, "particles")->capture_default_str();
+  app.add_option("--n", n, "number density")->capture_default_str();
+  app.add_option("--e", e, "restitution coefficient")->capture_default_str();
+  app.add_option("--seed", seed, "realization")->capture_default_str();
+  app.add_option("--warmup", warmup, "elastic collisions per particle before")
+      ->capture_default_str();
+  app.add_option("--tau", tau, "collisions per particle measured")->capture_default_str();
+  app.add_flag("--scalar", scalar, "predict contacts one by one, without SIMD");
+  app.add_flag("--json", json, "print one JSON object");
+  CLI11_PARSE(app, argc, argv);
+
+  const auto prediction = scalar ? engine::Prediction::scalar : engine::Prediction::simd;
+  engine::State start = engine::initial_state(n, particles, seed);
+  if (warmup > 0) {
+    // A state exists only at a synchronization.
+    const double period = engine::synchronization_period;
+    engine::Simulation melting({.restitution = 1}, start, prediction);
+    melting.run_to(engine::collisions_at(period * std::ceil(warmup / period), particles));
+    start = engine::restarted(melting.state());
+  }
+  engine::Simulation gas({.restitution = e}, start, prediction);
+  start = {};
+  const auto begin = std::chrono::steady_clock::now();
+  gas.run_to(engine::collisions_at(tau, particles));
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+
+  const nlohmann::ordered_json result{
+      {"N", particles},
+      {"n", n},
+      {"e", e},
+      {"seed", seed},
+      {"tau", tau},
+      {"simd", scalar ? "none" : engine::simd_target()},
+      {"seconds", seconds.count()},
+      {"collisions_per_second", static_cast<double>(gas.collisions()) / seconds.count()},
+      {"bytes_per_particle", static_cast<double>(gas.memory()) / particles},
+      {"state_hash", state_hash(gas)}};
+  if (json) {
+    std::printf("%s\n", result.dump().c_str());
+  } else {
+    for (const auto& [key, value] : result.items())
+      std::printf("%-22s %s\n", key.c_str(), value.dump().c_str());
+  }
+  return 0;
+}

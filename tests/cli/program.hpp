@@ -1,0 +1,70 @@
+// The real program in a temporary folder.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/temporary_folder.hpp"
+
+namespace haff::tests {
+
+// A temporary folder with a store in it, once there is one.
+class Folder {
+ public:
+  std::filesystem::path operator/(const std::string& name) const { return folder_.path() / name; }
+  std::filesystem::path store() const { return *this / "campaign.db"; }
+  void write(const std::string& name, const std::string& text) const;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+struct Outcome {
+  int exit_code = 0;  // 128 + signal if a signal killed it
+  std::string out, err;
+};
+
+// A program running in a folder: `campaign`, or whatever the first word names by its path.
+class Program {
+ public:
+  Program(const Folder& folder, std::vector<std::string> words);
+  ~Program();  // kills it if it still runs
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  pid_t id() const { return id_; }
+  bool runs() const;
+  std::vector<pid_t> workers() const;  // its child processes
+  void signal(int number) const;
+  Outcome wait();
+
+ private:
+  const Folder& folder_;
+  std::string output_;
+  pid_t id_ = 0;
+};
+
+// Runs `campaign` with these words to its end.
+Outcome campaign(const Folder& folder, std::vector<std::string> words);
+
+// Runs a shell script in the folder, with $campaign the program.
+Outcome shell(const Folder& folder, const std::string& script);
+
+bool is_alive(pid_t process);
+void sleep_for(std::chrono::milliseconds time);
+
+// Every row of samples and results with the physics of its job, reals in hexadecimal: equal texts
+// are equal bits.
+std::string rows(const Folder& folder);
+
+// One number that a query gives.
+double number(const Folder& folder, const std::string& sql);
+
+// Changes the store behind the program's back.
+void sabotage(const Folder& folder, const std::string& sql);
+
+}  // namespace haff::tests

@@ -1,0 +1,207 @@
+// Opening a store: what is made, what is brought forward, what is refused.
+#include "schema/database.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+
+#include "fixture.hpp"
+
+using namespace haff::schema;
+
+namespace {
+
+std::string contents(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Somebody else's connection: plain SQLite.
+SQLite::Database plain(const std::filesystem::path& path) {
+  return {path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE};
+}
+
+template <class Open>
+std::string refusal(Open open) {
+  try {
+    open();
+  } catch (const StoreError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+}  // namespace
+
+TEST_CASE("a new store is marked as one") {
+  const TemporaryFolder folder;
+  Store::create(folder / "a.db");
+  SQLite::Database sqlite = plain(folder / "a.db");
+  CHECK(sqlite.execAndGet("PRAGMA application_id").getInt() == application_id);
+  CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 1);
+  CHECK(sqlite.execAndGet("PRAGMA journal_mode").getString() == "wal");
+}
+
+TEST_CASE("every table is strict") {
+  const TemporaryFolder folder;
+  Store::create(folder / "a.db");
+  SQLite::Database sqlite = plain(folder / "a.db");
+  CHECK(sqlite
+            .execAndGet("SELECT count(*) FROM pragma_table_list WHERE type = 'table' AND "
+                        "name NOT LIKE 'sqlite_%' AND NOT strict")
+            .getInt() == 0);
+  CHECK(sqlite.execAndGet("SELECT count(*) FROM pragma_table_list WHERE strict").getInt() == 6);
+}
+
+TEST_CASE("the statuses of the store are those of the program, in order") {
+  const Store store = Store::create(":memory:");
+  Query rows = store.query("SELECT position, status, meaning FROM job_status ORDER BY position");
+  for (const StatusEntry& entry : statuses)
+    CHECK(rows.next() == Row{static_cast<std::int64_t>(entry.status), std::string(entry.name),
+                             std::string(entry.meaning)});
+  CHECK_FALSE(rows.next());
+}
+
+TEST_CASE("opening a store again keeps what is in it") {
+  const TemporaryFolder folder;
+  Store::create(folder / "a.db").add(plan({cooling()}));
+  CHECK(Store::create(folder / "a.db").jobs().size() == 2);
+  CHECK(Store::open(folder / "a.db").jobs().size() == 2);
+  CHECK(Reader(folder / "a.db").jobs().size() == 2);
+}
+
+TEST_CASE("two processes may make a store at the same time") {
+  const TemporaryFolder folder;
+  for (int round = 0; round < 20; ++round) {
+    const auto path = folder / ("a" + std::to_string(round));
+    std::jthread one([&] { Store::create(path).add(plan({cooling(0.8)})); });
+    std::jthread other([&] { Store::create(path).add(plan({cooling(0.9)})); });
+    one.join();
+    other.join();
+    CHECK(Reader(path).jobs().size() == 3);
+  }
+}
+
+TEST_CASE("a store that must be there is not made") {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.db";
+  const std::string message = path.string() +
+                              ": there is no such store; make it with: campaign plan GRID.json "
+                              "--store " +
+                              path.string();
+  CHECK(refusal([&] { Store::open(path); }) == message);
+  CHECK(refusal([&] { Reader{path}; }) == message);
+  CHECK_FALSE(std::filesystem::exists(path));
+}
+
+TEST_CASE("a store in a folder that does not exist is refused") {
+  const TemporaryFolder folder;
+  const auto path = folder / "no/a.db";
+  CHECK(refusal([&] { Store::create(path); }).starts_with(path.string() + ": cannot be opened"));
+}
+
+TEST_CASE("an empty file becomes a store, but is none yet") {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.db";
+  std::ofstream empty(path);
+  CHECK(refusal([&] { Reader{path}; }).starts_with(path.string() + ": is empty; make it with"));
+  Store::create(path);
+  CHECK(Reader(path).jobs().empty());
+}
+
+TEST_CASE("a file that is not SQLite's is refused and left alone") {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.db";
+  std::ofstream(path) << std::string(5000, 'x');
+  const std::string message =
+      path.string() + ": is not an SQLite file; name a store with --store FILE";
+  CHECK(refusal([&] { Store::create(path); }) == message);
+  CHECK(refusal([&] { Reader{path}; }) == message);
+  CHECK(contents(path) == std::string(5000, 'x'));
+}
+
+TEST_CASE("another program's SQLite file is refused and left alone") {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.db";
+  plain(path).exec("CREATE TABLE songs (title TEXT)");
+  const std::string before = contents(path);
+  const std::string message =
+      path.string() + ": is the SQLite file of another program; name a store with --store FILE";
+  CHECK(refusal([&] { Store::create(path); }) == message);
+  CHECK(refusal([&] { Store::open(path); }) == message);
+  CHECK(refusal([&] { Reader{path}; }) == message);
+  CHECK(contents(path) == before);
+}
+
+TEST_CASE("a store of a newer program is refused") {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.db";
+  Store::create(path);
+  plain(path).exec("PRAGMA user_version = 7");
+  const std::string message = path.string() +
+                              ": was written by a newer program (store version 7, this one knows "
+                              "1); update campaign";
+  CHECK(refusal([&] { Store::create(path); }) == message);
+  CHECK(refusal([&] { Store::open(path); }) == message);
+  CHECK(refusal([&] { Reader{path}; }) == message);
+}
+
+TEST_CASE("migration runs the scripts a store has not seen, once") {
+  const TemporaryFolder folder;
+  SQLite::Database sqlite = plain(folder / "a.db");
+  const std::vector<std::string_view> scripts{"CREATE TABLE a (x); INSERT INTO a VALUES (1);",
+                                              "ALTER TABLE a ADD COLUMN y DEFAULT 5;"};
+  migrate(sqlite, "a.db", std::span(scripts).first(1));
+  sqlite.exec("INSERT INTO a VALUES (2)");
+  migrate(sqlite, "a.db", scripts);
+  migrate(sqlite, "a.db", scripts);
+  CHECK(sqlite.execAndGet("SELECT group_concat(x || '-' || y) FROM a").getString() == "1-5,2-5");
+  CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 2);
+}
+
+TEST_CASE("a migration that fails changes nothing") {
+  const TemporaryFolder folder;
+  SQLite::Database sqlite = plain(folder / "a.db");
+  const std::vector<std::string_view> scripts{"CREATE TABLE a (x);", "CREATE TABLE b (x); oops;"};
+  migrate(sqlite, "a.db", std::span(scripts).first(1));
+  CHECK_THROWS_AS(migrate(sqlite, "a.db", scripts), SQLite::Exception);
+  CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 1);
+  CHECK_FALSE(sqlite.tableExists("b"));
+}
+
+TEST_CASE("SQLite refuses writes through a reader's connection") {
+  const TemporaryFolder folder;
+  Store::create(folder / "a.db").add(plan({cooling()}));
+  Database reader(folder / "a.db", Access::read);
+  for (const char* sql : {"DELETE FROM jobs", "CREATE TABLE t (x)", "PRAGMA user_version = 3",
+                          "PRAGMA query_only = OFF; DELETE FROM jobs"}) {
+    CAPTURE(sql);
+    try {
+      reader.sqlite().exec(sql);
+      CHECK(std::string(sql).find("DELETE") == std::string::npos);
+    } catch (const SQLite::Exception& error) {
+      CHECK(std::string(error.what()) == "attempt to write a readonly database");
+    }
+  }
+  CHECK(Reader(folder / "a.db").jobs().size() == 2);
+  CHECK(reader.sqlite().execAndGet("PRAGMA user_version").getInt() == 1);
+}
+
+TEST_CASE("readers see a store that a killed writer left with its log") {
+  const TemporaryFolder folder;
+  const Store store = [&] {
+    Store writer = Store::create(folder / "a.db");
+    writer.add(plan({cooling()}));
+    return writer;
+  }();
+  // What a crash leaves behind: the log, not yet copied into the file.
+  for (const char* suffix : {"", "-wal"})
+    std::filesystem::copy_file((folder / "a.db").string() + suffix,
+                               (folder / "b.db").string() + suffix);
+  CHECK(Reader(folder / "b.db").jobs().size() == 2);
+  CHECK(Store::open(folder / "b.db").faults().empty());
+}

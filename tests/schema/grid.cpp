@@ -1,0 +1,384 @@
+// A grid file becomes lists with every default filled in, or one message that says what is wrong.
+#include "schema/grid.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "fixture.hpp"
+
+using namespace haff::schema;
+
+namespace {
+
+constexpr Memory machine{.bytes = 8e9, .bytes_per_particle = 200};
+
+Grid parse(const std::string& text) {
+  return parse_grid(text, "g.json", machine);
+}
+
+// A complete flat grid, with one more member in front or instead of one of its own.
+std::string with(const std::string& key, const std::string& value) {
+  std::string text;
+  for (const auto& [own, usual] : std::vector<std::pair<std::string, std::string>>{
+           {"e", "0.8"}, {"n", "0.4"}, {"N", "1000"}, {"seeds", "1"}, {"tau_max", "90"}})
+    if (own != key) text.append("\"").append(own).append("\": ").append(usual).append(", ");
+  return "{" + text + '"' + key + "\": " + value + "}";
+}
+
+std::string complaint(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const GridError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+void check_complaint(const std::string& text, const std::string& message) {
+  CAPTURE(text);
+  CHECK(complaint(text) == message);
+}
+
+}  // namespace
+
+TEST_CASE("a grid with defaults beside it is made explicit") {
+  const Grid grid = parse(R"({
+    "name": "first",
+    "grids": [{"e": [0.80, 0.90], "n": 0.4, "N": 32000, "seeds": [1, 2],
+               "tau_max": {"0.80": 90, "0.90": 180}, "sample_every": 1}],
+    "equilibrate": 50, "checkpoint_every": 10, "observables": ["temperature", "laguerre"]})");
+  CHECK(grid.name == "first");
+  REQUIRE(grid.grids.size() == 1);
+  const SubGrid& only = grid.grids[0];
+  CHECK(only.e == std::vector{0.8, 0.9});
+  CHECK(only.n == std::vector{0.4});
+  CHECK(only.particles == std::vector<std::uint32_t>{32000});
+  CHECK(only.seeds == std::vector<std::uint64_t>{1, 2});
+  CHECK(only.tau_max == std::vector{90.0, 180.0});
+  CHECK(only.sample_every == std::vector{1.0});
+  CHECK(only.equilibrate == std::vector{50.0});
+  CHECK(only.checkpoint_every == 10);
+  CHECK(only.observables == std::vector<std::string>{"laguerre", "temperature"});
+}
+
+TEST_CASE("a flat object is one grid with the schema's defaults") {
+  const Grid grid = parse(R"({"e": 0.8, "n": 0.4, "N": 100, "seeds": 3, "tau_max": 90})");
+  REQUIRE(grid.grids.size() == 1);
+  const SubGrid& only = grid.grids[0];
+  CHECK(only.seeds == std::vector<std::uint64_t>{1, 2, 3});
+  CHECK(only.tau_max == std::vector{90.0});
+  CHECK(only.sample_every == std::vector{1.0});
+  CHECK(only.equilibrate == std::vector{50.0});
+  CHECK(only.checkpoint_every == 10);
+  CHECK(only.observables == std::vector<std::string>{"laguerre", "temperature"});
+}
+
+TEST_CASE("a grid's own keys win over those beside it") {
+  const Grid grid = parse(R"({"e": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 90,
+                              "grids": [{}, {"e": [0.9], "seeds": [7], "tau_max": 5}]})");
+  REQUIRE(grid.grids.size() == 2);
+  CHECK(grid.grids[0].e == std::vector{0.8});
+  CHECK(grid.grids[1].e == std::vector{0.9});
+  CHECK(grid.grids[1].seeds == std::vector<std::uint64_t>{7});
+  CHECK(grid.grids[1].tau_max == std::vector{5.0});
+  CHECK(grid.grids[1].n == std::vector{0.4});
+}
+
+TEST_CASE("whole numbers may be written as reals") {
+  const Grid grid = parse(with("N", "[32000.0, 6.4e4]"));
+  CHECK(grid.grids[0].particles == std::vector<std::uint32_t>{32000, 64000});
+}
+
+TEST_CASE("the largest seed keeps all its digits") {
+  const Grid grid = parse(with("seeds", "[0, 9007199254740991]"));
+  CHECK(grid.grids[0].seeds == std::vector<std::uint64_t>{0, 9007199254740991});
+}
+
+TEST_CASE("a scalar stands for a list of one") {
+  const Grid grid = parse(with("observables", "\"temperature\""));
+  CHECK(grid.grids[0].observables == std::vector<std::string>{"temperature"});
+  CHECK(parse(with("sample_every", "2")).grids[0].sample_every == std::vector{2.0});
+  CHECK(parse(with("sample_every", "[2, 4]")).grids[0].sample_every == std::vector{2.0, 4.0});
+}
+
+TEST_CASE("tau_max is matched to e by value, in the order of e") {
+  const Grid grid = parse(R"({"e": [0.9, 0.8, 0.85], "n": 0.4, "N": 100, "seeds": 1,
+                              "tau_max": {"0.80": 1, "0.850": 2, "9e-1": 3}})");
+  CHECK(grid.grids[0].tau_max == std::vector{3.0, 1.0, 2.0});
+}
+
+TEST_CASE("a tau_max map beside several grids serves each with its own e") {
+  const Grid grid = parse(R"({"n": 0.4, "N": 100, "seeds": 1, "tau_max": {"0.8": 1, "0.9": 2},
+                              "grids": [{"e": 0.8}, {"e": 0.9}]})");
+  CHECK(grid.grids[0].tau_max == std::vector{1.0});
+  CHECK(grid.grids[1].tau_max == std::vector{2.0});
+}
+
+TEST_CASE("negative zero is zero") {
+  CHECK_FALSE(std::signbit(parse(with("e", "-0.0")).grids[0].e[0]));
+}
+
+TEST_CASE("a file is read, and named when it cannot be") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "g.json") << with("e", "0.9");
+  CHECK(read_grid(folder / "g.json", machine).grids[0].e == std::vector{0.9});
+  CHECK_THROWS_WITH_AS(
+      read_grid(folder / "h.json", machine),
+      ((folder / "h.json").string() + ": cannot be read: No such file or directory").c_str(),
+      GridError);
+  CHECK_THROWS_WITH_AS(read_grid(folder / "", machine),
+                       ((folder / "").string() + ": cannot be read: Is a directory").c_str(),
+                       GridError);
+}
+
+TEST_CASE("what is not JSON is shown by line and column") {
+  check_complaint("",
+                  "g.json: is not JSON: line 1, column 1: syntax error while parsing value - "
+                  "unexpected end of input; expected '[', '{', or a literal");
+  check_complaint("{\n  \"e\": 0.8,\n  n: 0.4}",
+                  "g.json: is not JSON: line 3, column 4: syntax error while parsing object key - "
+                  "invalid literal; last read: '0.8,<U+000A>  n:'; expected string literal");
+  check_complaint("{\"e\": NaN}",
+                  "g.json: is not JSON: line 1, column 7: syntax error while parsing value - "
+                  "invalid literal; last read: '\"e\": N'");
+  check_complaint("{\"e\": 0.8",
+                  "g.json: is not JSON: line 1, column 10: syntax error while parsing object - "
+                  "unexpected end of input; expected '}'");
+  check_complaint("{\"e\": 0.8} {}",
+                  "g.json: is not JSON: line 1, column 12: syntax error while parsing value - "
+                  "unexpected '{'; expected end of input");
+  check_complaint("{\"e\": \"\xff\"}",
+                  "g.json: is not JSON: line 1, column 8: syntax error while parsing value - "
+                  "invalid string: ill-formed UTF-8 byte; last read: '\"\xff'");
+}
+
+TEST_CASE("a key given twice is found where it is") {
+  check_complaint(R"({"e": 0.8, "e": 0.9})",
+                  "g.json: /e: the key is there twice; expected each key once");
+  check_complaint(R"({"grids": [{"e": 0.8}, {"N": 10, "N": 10}]})",
+                  "g.json: /grids/1/N: the key is there twice; expected each key once");
+  check_complaint(R"({"tau_max": {"0.8": 1, "0.8": 2}})",
+                  "g.json: /tau_max/0.8: the key is there twice; expected each key once");
+}
+
+TEST_CASE("numbers that no double holds are found where they are") {
+  check_complaint(with("tau_max", "1e999"),
+                  "g.json: /tau_max: 1e999 is too large; expected a finite number");
+  check_complaint(R"({"grids": [{"e": [0.8, -1e999]}]})",
+                  "g.json: /grids/0/e/1: -1e999 is too large; expected a finite number");
+}
+
+TEST_CASE("nesting beyond reason is refused") {
+  CHECK(complaint(with("e", std::string(100000, '[')))
+            .ends_with("/0/0: is nested too deeply; expected a grid"));
+}
+
+TEST_CASE("an unknown key is named with the nearest known one") {
+  check_complaint(with("tau_mx", "1"), "g.json: /tau_mx: unknown key; did you mean \"tau_max\"?");
+  check_complaint(with("E", "1"), "g.json: /E: unknown key; did you mean \"e\"?");
+  check_complaint(with("sample_evry", "1"),
+                  "g.json: /sample_evry: unknown key; did you mean \"sample_every\"?");
+  check_complaint(R"({"grids": [{"e": 0.8}, {"seed": 1}]})",
+                  "g.json: /grids/1/seed: unknown key; did you mean \"seeds\"?");
+  check_complaint(with("density", "1"),
+                  "g.json: /density: unknown key; expected one of \"N\", \"checkpoint_every\", "
+                  "\"e\", \"equilibrate\", \"grids\", \"n\", \"name\", \"observables\", "
+                  "\"sample_every\", \"seeds\", \"tau_max\"");
+  check_complaint(R"({"E": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 1})",
+                  "g.json: /E: unknown key; did you mean \"e\"?");
+  check_complaint(with("a/b~c", "1"),
+                  "g.json: /a~1b~0c: unknown key; expected one of \"N\", \"checkpoint_every\", "
+                  "\"e\", \"equilibrate\", \"grids\", \"n\", \"name\", \"observables\", "
+                  "\"sample_every\", \"seeds\", \"tau_max\"");
+}
+
+TEST_CASE("a missing key is named") {
+  check_complaint("{}",
+                  "g.json: has no \"e\"; expected a normal restitution coefficient, from 0 to 1, "
+                  "or a list of them");
+  check_complaint(R"({"e": 0.8, "n": 0.4, "N": 100, "seeds": 1})",
+                  "g.json: has no \"tau_max\"; expected a number above 0 [collisions per "
+                  "particle], or an object from each e to such a number");
+  check_complaint(
+      R"({"n": 0.4, "N": 100, "seeds": 1, "grids": [{"e": 0.8, "tau_max": 1}, {"e": 1}]})",
+      "g.json: /grids/1: has no \"tau_max\", and there is none beside \"grids\"; expected a number "
+      "above 0 [collisions per particle], or an object from each e to such a number");
+}
+
+TEST_CASE("a value of the wrong type or out of range is shown with what was expected") {
+  check_complaint("[]",
+                  "g.json: [] is not accepted; expected a JSON object: one grid, or a list "
+                  "\"grids\" with defaults for all beside it");
+  check_complaint("3",
+                  "g.json: 3 is not accepted; expected a JSON object: one grid, or a list "
+                  "\"grids\" with defaults for all beside it");
+  check_complaint(R"({"grids": []})",
+                  "g.json: /grids: [] is not accepted; expected a list of grids, at least one");
+  check_complaint(R"({"grids": {}})",
+                  "g.json: /grids: {} is not accepted; expected a list of grids, at least one");
+  check_complaint(R"({"grids": [3]})",
+                  "g.json: /grids/0: 3 is not accepted; expected a grid: an object with e, n, N, "
+                  "seeds and tau_max, here or beside \"grids\"");
+  check_complaint(with("name", "3"), "g.json: /name: 3 is not accepted; expected a name, as text");
+  check_complaint(with("e", "\"0.8\""),
+                  "g.json: /e: \"0.8\" is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1, or a list of them");
+  check_complaint(with("e", "true"),
+                  "g.json: /e: true is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1, or a list of them");
+  check_complaint(with("e", "null"),
+                  "g.json: /e: null is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1, or a list of them");
+  check_complaint(with("e", "1.2"),
+                  "g.json: /e: 1.2 is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1, or a list of them");
+  check_complaint(with("e", "-0.1"),
+                  "g.json: /e: -0.1 is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1, or a list of them");
+  check_complaint(with("e", "[]"),
+                  "g.json: /e: [] is not accepted; expected a normal restitution coefficient, from "
+                  "0 to 1, or a list of them");
+  check_complaint(with("e", "[0.8, [0.9]]"),
+                  "g.json: /e/1: [0.9] is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1");
+  check_complaint(R"({"grids": [{"e": 0.8}, {"e": [0.8, 1.2]}]})",
+                  "g.json: /grids/1/e/1: 1.2 is not accepted; expected a normal restitution "
+                  "coefficient, from 0 to 1");
+  check_complaint(with("n", "0"),
+                  "g.json: /n: 0 is not accepted; expected a number density [sigma^-3], above 0 "
+                  "and below sqrt(2) = 1.41421 (close packing), or a list of them");
+  check_complaint(with("n", "1.5"),
+                  "g.json: /n: 1.5 is not accepted; expected a number density [sigma^-3], above 0 "
+                  "and below sqrt(2) = 1.41421 (close packing), or a list of them");
+  check_complaint(with("N", "1"),
+                  "g.json: /N: 1 is not accepted; expected a number of particles, a whole number "
+                  "of at least 2, or a list of them");
+  check_complaint(with("N", "1000.5"),
+                  "g.json: /N: 1000.5 is not accepted; expected a number of particles, a whole "
+                  "number of at least 2, or a list of them");
+  check_complaint(with("N", "{}"),
+                  "g.json: /N: {} is not accepted; expected a number of particles, a whole number "
+                  "of at least 2, or a list of them");
+  check_complaint(with("seeds", "0"),
+                  "g.json: /seeds: 0 is not accepted; expected a list of seeds, or a count K from "
+                  "1 to 1000000 that stands for 1 ... K");
+  check_complaint(with("seeds", "1.5"),
+                  "g.json: /seeds: 1.5 is not accepted; expected a list of seeds, or a count K "
+                  "from 1 to 1000000 that stands for 1 ... K");
+  check_complaint(with("seeds", "[1, -1]"),
+                  "g.json: /seeds/1: -1 is not accepted; expected a seed, a whole number from 0 to "
+                  "9007199254740991 (2^53 - 1)");
+  check_complaint(with("seeds", "[9007199254740992]"),
+                  "g.json: /seeds/0: 9007199254740992 is not accepted; expected a seed, a whole "
+                  "number from 0 to 9007199254740991 (2^53 - 1)");
+  check_complaint(with("seeds", "[]"),
+                  "g.json: /seeds: [] is not accepted; expected a list of seeds, or a count K from "
+                  "1 to 1000000 that stands for 1 ... K");
+  check_complaint(with("tau_max", "0"),
+                  "g.json: /tau_max: 0 is not accepted; expected a number above 0 [collisions per "
+                  "particle], or an object from each e to such a number");
+  check_complaint(with("tau_max", "[90]"),
+                  "g.json: /tau_max: [90] is not accepted; expected a number above 0 [collisions "
+                  "per particle], or an object from each e to such a number");
+  check_complaint(with("tau_max", "{}"),
+                  "g.json: /tau_max: {} is not accepted; expected a number above 0 [collisions per "
+                  "particle], or an object from each e to such a number");
+  check_complaint(with("tau_max", R"({"0.8": -1})"),
+                  "g.json: /tau_max/0.8: -1 is not accepted; expected collisions per particle, a "
+                  "number above 0");
+  check_complaint(with("sample_every", "0"),
+                  "g.json: /sample_every: 0 is not accepted; expected an interval between samples "
+                  "[collisions per particle], above 0, or a list of them");
+  check_complaint(with("equilibrate", "25"),
+                  "g.json: /equilibrate: 25 is not accepted; expected the length of equilibration "
+                  "[elastic collisions per particle], a multiple of 10, or a list of them");
+  check_complaint(with("equilibrate", "0"),
+                  "g.json: /equilibrate: 0 is not accepted; expected the length of equilibration "
+                  "[elastic collisions per particle], a multiple of 10, or a list of them");
+  check_complaint(with("checkpoint_every", "[10, 20]"),
+                  "g.json: /checkpoint_every: [10,20] is not accepted; expected an interval "
+                  "between checkpoints [collisions per particle], above 0");
+  check_complaint(with("observables", "[]"),
+                  "g.json: /observables: [] is not accepted; expected the name of an observable, "
+                  "or a list of them");
+  check_complaint(with("observables", "\"laguere\""),
+                  "g.json: /observables: \"laguere\" is not accepted; did you mean \"laguerre\"?");
+  check_complaint(
+      with("observables", "[\"laguere\"]"),
+      "g.json: /observables/0: \"laguere\" is not accepted; did you mean \"laguerre\"?");
+  check_complaint(with("observables", "[\"pressure\"]"),
+                  "g.json: /observables/0: \"pressure\" is not accepted; expected one of "
+                  "\"temperature\", \"laguerre\"");
+  check_complaint(with("observables", "[3]"),
+                  "g.json: /observables/0: 3 is not accepted; expected the name of an observable");
+}
+
+TEST_CASE("a long value is cut") {
+  check_complaint(
+      with("name", "[" + std::string(200, ' ') +
+                       R"("the quick brown fox jumps over the lazy dog, and once more over it"])"),
+      "g.json: /name: [\"the quick brown fox jumps over the lazy dog, and once more... is not "
+      "accepted; expected a name, as text");
+}
+
+TEST_CASE("a value repeated within a list is found, however it is written") {
+  check_complaint(with("e", "[0.8, 0.9, 0.80]"),
+                  "g.json: /e/2: 0.8 is already at /e/0; expected each value once");
+  check_complaint(with("N", "[1000, 1e3]"),
+                  "g.json: /N/1: 1000.0 is already at /N/0; expected each value once");
+  check_complaint(with("seeds", "[1, 2, 2.0]"),
+                  "g.json: /seeds/2: 2.0 is already at /seeds/1; expected each value once");
+  check_complaint(R"({"grids": [{"e": 0.8}, {"observables": ["laguerre", "laguerre"]}]})",
+                  "g.json: /grids/1/observables/1: \"laguerre\" is already at "
+                  "/grids/1/observables/0; expected each value once");
+}
+
+TEST_CASE("a tau_max map must name the e of its grid, each once") {
+  check_complaint(with("tau_max", R"({"0.9": 90})"),
+                  "g.json: /tau_max/0.9: there is no such e; expected the e of this grid: 0.8");
+  check_complaint(with("tau_max", R"({"0.8": 90, "0.9": 180})"),
+                  "g.json: /tau_max/0.9: there is no such e; expected the e of this grid: 0.8");
+  check_complaint(with("tau_max", R"({"0.8": 90, "0.80": 180})"),
+                  "g.json: /tau_max/0.80: is the second entry for e = 0.8; expected one");
+  check_complaint(with("tau_max", R"({"0.8": 90, "all": 180})"),
+                  "g.json: /tau_max/all: is not a number; expected an e of this grid");
+  check_complaint(
+      R"({"e": [0.8, 0.9], "n": 0.4, "N": 100, "seeds": 1, "tau_max": {"0.8": 9}})",
+      "g.json: /tau_max: has no entry for e = 0.9; expected one for each e of the grid");
+  check_complaint(
+      R"({"n": 0.4, "N": 100, "seeds": 1, "grids": [
+      {"e": 0.8, "tau_max": {"0.8": 9}}, {"e": 0.9, "tau_max": {"0.90": 9, "0.8": 9}}]})",
+      "g.json: /grids/1/tau_max/0.8: there is no such e; expected the e of this grid: 0.9");
+}
+
+TEST_CASE("a box too small, or a machine too small, is refused with numbers") {
+  check_complaint(with("N", "3"),
+                  "g.json: /N: 3 particles at n = 0.4 make a box of side L = 1.96 sigma; expected "
+                  "L >= 2 sigma, N >= 4");
+  check_complaint(with("N", "[1000, 3]"),
+                  "g.json: /N/1: 3 particles at n = 0.4 make a box of side L = 1.96 sigma; "
+                  "expected L >= 2 sigma, N >= 4");
+  CHECK(complaint(with("N", "4")) == "no complaint");
+  check_complaint(R"({"n": 0.4, "grids": [{"e": 1, "N": 2, "seeds": 1, "tau_max": 1}]})",
+                  "g.json: /grids/0/N: 2 particles at n = 0.4 make a box of side L = 1.71 sigma; "
+                  "expected L >= 2 sigma, N >= 4");
+  check_complaint(with("N", "1e8"),
+                  "g.json: /N: 100000000.0 particles need 20 GB; expected at most the 8 GB of this "
+                  "machine, and N below 2^28");
+  check_complaint(with("N", "1e300"),
+                  "g.json: /N: 1e+300 particles need 2e+293 GB; expected at most the 8 GB of this "
+                  "machine, and N below 2^28");
+}
+
+TEST_CASE("samples must be at least a collision apart and within the run") {
+  check_complaint(with("sample_every", "0.001"),
+                  "g.json: /sample_every: 0.001 is less than one collision of 1000 particles; "
+                  "expected at least 2/N = 0.002");
+  CHECK(complaint(with("sample_every", "0.002")) == "no complaint");
+  check_complaint(
+      with("sample_every", "[1, 100]"),
+      "g.json: /sample_every/1: 100 is longer than the run; expected at most tau_max = 90");
+}

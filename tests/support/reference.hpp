@@ -1,0 +1,89 @@
+// A naive reference engine: every pair, every image, at every event. Slow and evidently right; the
+// real engine must agree with it event by event and bit by bit.
+//
+// It shares the definition of a contact, a collision and a synchronization (engine/contact.hpp,
+// engine/synchronize.hpp) and nothing else: no cells, no calendar, no SIMD.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+#include "engine/contact.hpp"
+#include "engine/simulation.hpp"
+#include "engine/synchronize.hpp"
+
+namespace haff::tests {
+
+class Reference {
+ public:
+  Reference(const engine::Model& model, const engine::State& start)
+      : physics_{model.restitution},
+        box_(start.box),
+        particles_(start.particles()),
+        clock_(engine::to_clock(start)) {
+    engine::copy_particles(start, particles_);
+  }
+
+  // The next collision.
+  void step() {
+    for (;;) {
+      double fastest = 0;
+      for (const auto& p : particles_)
+        fastest = std::max(fastest, engine::dot(p.velocity, p.velocity));
+      // Until then nobody moves by more than a quarter of the box relative to another, so the
+      // contact is with one of the 27 images around the nearest.
+      const double horizon = clock_.now + 0.125 * box_.side / std::sqrt(fastest);
+      // Time, then the smaller, then the larger id: the order of events that share a time.
+      auto first = std::tuple(engine::never, 0u, 0u);
+      std::size_t a = 0, b = 0;
+      for (std::size_t i = 0; i < particles_.size(); ++i)
+        for (std::size_t j = i + 1; j < particles_.size(); ++j)
+          for (int image = 0; image < 27; ++image) {
+            const engine::Vector boxes{image % 3 - 1.0, image / 3 % 3 - 1.0, image / 9 - 1.0};
+            const double time = physics_.contact_time(
+                engine::Encounter(particles_[i], particles_[j], clock_.now, box_, boxes));
+            const auto ids = std::minmax(particles_[i].id, particles_[j].id);
+            if (const auto found = std::tuple(time, ids.first, ids.second); found < first) {
+              first = found;
+              a = i;
+              b = j;
+            }
+          }
+      if (std::get<0>(first) > horizon) {
+        clock_.now = horizon;
+        continue;
+      }
+      clock_.now = std::get<0>(first);
+      physics_.collide(particles_[a], particles_[b], clock_.now, box_, clock_.tally);
+      break;
+    }
+    if (++clock_.collisions == next_) synchronize();
+  }
+
+  bool synchronized() const { return clock_.now == 0; }
+  engine::State state() const { return engine::to_state(particles_, clock_, box_); }
+  double time() const { return clock_.time(); }
+  std::vector<engine::Vector> velocities() const {
+    std::vector<engine::Vector> all;
+    for (const auto& p : particles_) all.push_back(p.velocity);
+    return all;
+  }
+
+ private:
+  void synchronize() {
+    engine::synchronize(particles_, clock_, box_);
+    next_ = engine::next_synchronization(clock_.collisions,
+                                         static_cast<std::uint32_t>(particles_.size()));
+  }
+
+  engine::InelasticSpheres physics_;
+  engine::Box box_;
+  std::vector<engine::Particle> particles_;
+  engine::Clock clock_;
+  std::int64_t next_ = engine::next_synchronization(clock_.collisions,
+                                                    static_cast<std::uint32_t>(particles_.size()));
+};
+
+}  // namespace haff::tests
