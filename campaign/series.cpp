@@ -84,7 +84,8 @@ class Rest {
   std::string of(const schema::Job& job) const {
     std::string text;
     for (const auto& [key, value] : values(job))
-      if (values_.at(key).size() > 1) text += (text.empty() ? "" : ", ") + key + ' ' + value;
+      if (values_.at(key).size() > 1)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key, value);
     return text;
   }
 
