@@ -1,10 +1,14 @@
 #include "campaign/averages.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 namespace haff::campaign {
@@ -23,32 +27,34 @@ std::int64_t integer(const schema::Value& value) {
 }
 
 // Rows of smooth spheres with constant restitution.
-constexpr const char* plain_gas = " WHERE d = 3 AND effects = '{}'";
+constexpr const char* plain_gas = " d = 3 AND effects = '{}'";
 
-std::vector<MeanSeries> read_series(const schema::Reader& store) {
-  // Columns 4 to 7 set series of the same gas apart that were prepared or sampled in other ways.
+// What tells series apart: columns 4 to 7 those of the same gas that were prepared or sampled in
+// other ways.
+constexpr const char* key_columns =
+    "e, n, particles, sample_every, equilibrate, precision, observables";
+constexpr std::size_t keys = 7;
+
+schema::Row key_of(const schema::Row& row) {
+  return {row.begin(), row.begin() + keys};
+}
+
+std::map<schema::Row, MeanSeries> read_means(const schema::Reader& store) {
   schema::Query rows = store.query(
-      std::string("SELECT e, n, particles, sample_every, equilibrate, precision, observables,"
-                  " realizations, tau, temperature, temperature_se, gamma_ratio, gamma_ratio_se,"
-                  " a2, a2_se, a3, a3_se, a4, a4_se FROM mean_series") +
-      plain_gas);
-  constexpr std::size_t key_columns = 7;
-  std::vector<MeanSeries> all;
-  schema::Row last;
+      fmt::format("SELECT {}, realizations, tau, temperature, temperature_se, gamma_ratio,"
+                  " gamma_ratio_se, a2, a2_se, a3, a3_se, a4, a4_se FROM mean_series WHERE {}",
+                  key_columns, plain_gas));
+  std::map<schema::Row, MeanSeries> all;
   while (const auto row = rows.next()) {
     const auto& r = *row;
-    if (last.empty() || !std::equal(r.begin(), r.begin() + key_columns, last.begin())) {
-      all.emplace_back();
-      all.back().e = real(r[0]);
-      all.back().n = real(r[1]);
-      all.back().particles = integer(r[2]);
-      all.back().sample_every = real(r[3]);
-      last = r;
-    }
-    MeanSeries& series = all.back();
-    series.realizations.push_back(integer(r[7]));
-    series.tau.push_back(real(r[8]));
-    std::size_t column = 9;
+    MeanSeries& series = all[key_of(r)];
+    series.e = real(r[0]);
+    series.n = real(r[1]);
+    series.particles = integer(r[2]);
+    series.sample_every = real(r[3]);
+    series.realizations.push_back(integer(r[keys]));
+    series.tau.push_back(real(r[keys + 1]));
+    std::size_t column = keys + 2;
     for (const Observable each : {&MeanSeries::temperature, &MeanSeries::gamma_ratio,
                                   &MeanSeries::a2, &MeanSeries::a3, &MeanSeries::a4}) {
       (series.*each).value.push_back(real(r[column++]));
@@ -58,23 +64,36 @@ std::vector<MeanSeries> read_series(const schema::Reader& store) {
   return all;
 }
 
-std::vector<MeanTauC> read_tau_c(const schema::Reader& store) {
-  schema::Query rows =
-      store.query(std::string("SELECT e, n, particles, realizations, reached, tau_c, tau_c_se"
-                              " FROM mean_tau_c") +
-                  plain_gas);
-  std::vector<MeanTauC> all;
+Realization read_realization(const schema::Reader& store, std::int64_t job_id, std::uint64_t seed) {
+  Realization run{.job_id = job_id, .seed = seed};
+  if (const auto results = store.results(job_id)) run.tau_c = results->tau_c;
+  for (const schema::Sample& sample : store.samples(job_id)) {
+    run.tau.push_back(sample.tau);
+    run.temperature.push_back(sample.temperature.value_or(none));
+    run.a2.push_back(sample.a2.value_or(none));
+  }
+  return run;
+}
+
+// Adds the runs that each mean is of, and counts those that are missing.
+void read_runs(const schema::Reader& store, std::map<schema::Row, MeanSeries>& all) {
+  schema::Query rows = store.query(
+      fmt::format("SELECT {}, job_id, seed, status, coalesce(code_version, '') FROM jobs"
+                  " WHERE kind = 'cooling' AND {} ORDER BY seed",
+                  key_columns, plain_gas));
   while (const auto row = rows.next()) {
     const auto& r = *row;
-    all.push_back({.e = real(r[0]),
-                   .n = real(r[1]),
-                   .particles = integer(r[2]),
-                   .realizations = integer(r[3]),
-                   .reached = integer(r[4]),
-                   .tau_c = real(r[5]),
-                   .error = real(r[6])});
+    const auto found = all.find(key_of(r));
+    if (found == all.end()) continue;  // none of its realizations is done
+    MeanSeries& series = found->second;
+    if (std::get<std::string>(r[keys + 2]) != schema::name(schema::Status::done)) {
+      ++series.missing;
+      continue;
+    }
+    series.runs.push_back(read_realization(store, integer(r[keys]),
+                                           static_cast<std::uint64_t>(integer(r[keys + 1]))));
+    series.code_versions.insert(std::get<std::string>(r[keys + 3]));
   }
-  return all;
 }
 
 // One sample, at the start, is no series.
@@ -82,19 +101,24 @@ bool measured(const Means& means) {
   return std::ranges::count_if(means.value, [](double x) { return std::isfinite(x); }) > 1;
 }
 
-// Of all that pass, the best of each e, by increasing e.
+// Of all that pass, the best of each key, by increasing key.
 template <class T, class Pass, class Rank>
-std::vector<T> best_of_each_e(const std::vector<T>& all, Pass pass, Rank rank) {
+std::vector<T> best_of_each(const std::vector<T>& all, double T::*key, Pass pass, Rank rank) {
   std::map<double, const T*> best;
   for (const T& each : all) {
     if (each.e >= 1 || !pass(each)) continue;
-    const T*& place = best[each.e];
+    const T*& place = best[each.*key];
     if (place == nullptr || rank(*place) < rank(each)) place = &each;
   }
   std::vector<T> chosen;
   chosen.reserve(best.size());
   for (const auto& entry : best) chosen.push_back(*entry.second);
   return chosen;
+}
+
+// The noise of a mean falls with the particles of all its realizations together.
+std::tuple<std::int64_t, double> rank(const MeanSeries& series) {
+  return {series.particles * series.most_realizations(), series.tau.back()};
 }
 
 }  // namespace
@@ -104,15 +128,43 @@ std::int64_t MeanSeries::most_realizations() const {
 }
 
 Averages read_averages(const schema::Reader& store) {
-  return {.series = read_series(store), .tau_c = read_tau_c(store)};
+  auto all = read_means(store);
+  read_runs(store, all);
+  Averages averages;
+  for (auto& entry : all) averages.series.push_back(std::move(entry.second));
+  std::ranges::stable_sort(averages.series, {},
+                           [](const MeanSeries& s) { return std::tuple(s.n, s.particles, s.e); });
+  return averages;
+}
+
+std::optional<MeanTauC> mean_tau_c(const MeanSeries& series) {
+  std::vector<double> reached;
+  for (const Realization& run : series.runs) {
+    if (run.tau_c) reached.push_back(*run.tau_c);
+  }
+  if (reached.empty()) return std::nullopt;
+  const auto estimate = analysis::estimate(reached);
+  return MeanTauC{.e = series.e,
+                  .n = series.n,
+                  .particles = series.particles,
+                  .realizations = std::ssize(series.runs),
+                  .reached = std::ssize(reached),
+                  .tau_c = estimate.mean,
+                  .error = estimate.standard_error,
+                  .interval = analysis::bootstrap_interval(reached)};
 }
 
 std::vector<MeanSeries> choose_series(const Averages& averages, double n, Observable observable) {
-  return best_of_each_e(
-      averages.series, [&](const MeanSeries& s) { return s.n == n && measured(s.*observable); },
-      [](const MeanSeries& s) {
-        return std::tuple(s.particles, s.most_realizations(), s.tau.back());
-      });
+  return best_of_each(
+      averages.series, &MeanSeries::e,
+      [&](const MeanSeries& s) { return s.n == n && measured(s.*observable); }, rank);
+}
+
+std::vector<MeanSeries> choose_densities(const Averages& averages, double e,
+                                         Observable observable) {
+  return best_of_each(
+      averages.series, &MeanSeries::n,
+      [&](const MeanSeries& s) { return s.e == e && measured(s.*observable); }, rank);
 }
 
 const MeanSeries& nearest(const std::vector<MeanSeries>& series, double e) {
@@ -121,9 +173,14 @@ const MeanSeries& nearest(const std::vector<MeanSeries>& series, double e) {
 }
 
 std::vector<MeanTauC> choose_tau_c(const Averages& averages, double n) {
-  return best_of_each_e(
-      averages.tau_c, [&](const MeanTauC& t) { return t.n == n && t.reached > 0; },
-      [](const MeanTauC& t) { return std::tuple(t.particles, t.reached); });
+  std::vector<MeanTauC> all;
+  for (const MeanSeries& series : averages.series) {
+    if (series.n != n) continue;
+    if (const auto tau_c = mean_tau_c(series)) all.push_back(*tau_c);
+  }
+  return best_of_each(
+      all, &MeanTauC::e, [](const MeanTauC&) { return true; },
+      [](const MeanTauC& t) { return t.particles * t.reached; });
 }
 
 }  // namespace haff::campaign

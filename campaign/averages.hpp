@@ -1,12 +1,15 @@
-// Averages over realizations, as the figures need them: the store's views mean_series and
-// mean_tau_c in memory, for smooth spheres with constant restitution in three dimensions.
+// Averages over realizations, as the figures need them: the store's view mean_series in memory,
+// with the realizations it averages, for smooth spheres with constant restitution in three
+// dimensions.
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "analysis/statistics.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {
@@ -16,7 +19,16 @@ struct Means {
   std::vector<double> value, error;
 };
 
-// The mean series of one gas. Units as in the table samples.
+// One finished run: for what is fitted, or drawn, realization by realization.
+struct Realization {
+  std::int64_t job_id = 0;
+  std::uint64_t seed = 0;
+  std::optional<double> tau_c = {};
+  std::vector<double> tau = {}, temperature = {}, a2 = {};  // NaN where not measured
+};
+
+// The mean series of one gas. Units as in the table samples. All realizations are sampled at the
+// same tau, after the same number of collisions: they are averaged as they are.
 struct MeanSeries {
   double e = 0;
   double n = 0;
@@ -25,36 +37,46 @@ struct MeanSeries {
   std::vector<std::int64_t> realizations = {};  // that have this sample
   std::vector<double> tau = {};
   Means temperature = {}, gamma_ratio = {}, a2 = {}, a3 = {}, a4 = {};
+  std::vector<Realization> runs = {};        // by seed
+  std::int64_t missing = 0;                  // realizations planned, but not done
+  std::set<std::string> code_versions = {};  // of the programs that made them
 
   std::int64_t most_realizations() const;
 };
 
+// tau_c of one gas, mean over the realizations that reached it.
 struct MeanTauC {
   double e = 0;
   double n = 0;
   std::int64_t particles = 0;
   std::int64_t realizations = 0;
-  std::int64_t reached = 0;  // realizations that got to tau_c
+  std::int64_t reached = 0;  // where fewer than realizations, the others stopped before it
   double tau_c = 0;
-  double error = 0;  // NaN for one realization
+  double error = 0;                  // standard error; NaN for one realization
+  analysis::Interval interval = {};  // 95 % bootstrap interval of the mean
 };
 
 struct Averages {
   std::vector<MeanSeries> series;  // by n, particles, e
-  std::vector<MeanTauC> tau_c;
 };
 
 Averages read_averages(const schema::Reader& store);
 
+// Nothing if no realization reached it.
+std::optional<MeanTauC> mean_tau_c(const MeanSeries& series);
+
 // What a figure draws at density n: for each inelastic e one series that has the observable, of
-// the largest N there is, then of most realizations, then the longest. By increasing e.
+// the most particles in all realizations together, then the longest. By increasing e.
 using Observable = Means MeanSeries::*;
 std::vector<MeanSeries> choose_series(const Averages& averages, double n, Observable observable);
+
+// Likewise at restitution e: for each density one series, by increasing n.
+std::vector<MeanSeries> choose_densities(const Averages& averages, double e, Observable observable);
 
 // Of these, the one whose e is nearest to the wanted. There must be one.
 const MeanSeries& nearest(const std::vector<MeanSeries>& series, double e);
 
-// Likewise tau_c: for each inelastic e that reached it, of the largest N, then most realizations.
+// Likewise tau_c: for each inelastic e the one of the most particles in all that reached it.
 std::vector<MeanTauC> choose_tau_c(const Averages& averages, double n);
 
 }  // namespace haff::campaign

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "analysis/energy_equation.hpp"
@@ -12,26 +13,63 @@
 
 namespace haff::campaign {
 
-std::string restitution_text(double e) {
-  const std::string two = fmt::format("{:.2f}", e), more = fmt::format("{:.6g}", e);
+namespace {
+
+std::string two_decimals(double value) {
+  const std::string two = fmt::format("{:.2f}", value), more = fmt::format("{:.6g}", value);
   return more.size() > two.size() ? more : two;
 }
 
-std::string provenance(const std::vector<MeanSeries>& series) {
-  // Restitutions that share particles and realizations are named together.
-  std::map<std::pair<std::int64_t, std::int64_t>, std::string> groups;
+// "mean of 6 realizations (3 beyond tau = 20; 1 planned is not done)"
+std::string realizations_text(const MeanSeries& series) {
+  const std::int64_t most = series.most_realizations();
+  std::string text = most == 1 ? "one realization" : fmt::format("mean of {} realizations", most);
+  std::string rest;
+  for (std::size_t i = 1; i < series.realizations.size(); ++i) {
+    if (series.realizations[i] == series.realizations[i - 1]) continue;
+    rest += fmt::format("{}{} beyond τ = {:g}", rest.empty() ? "" : ", ", series.realizations[i],
+                        series.tau[i - 1]);
+  }
+  if (series.missing > 0) {
+    rest += fmt::format("{}{} planned not done", rest.empty() ? "" : "; ", series.missing);
+  }
+  return rest.empty() ? text : text + " (" + rest + ")";
+}
+
+}  // namespace
+
+std::string restitution_text(double e) {
+  return two_decimals(e);
+}
+
+std::string density_text(double n) {
+  return two_decimals(n);
+}
+
+std::string versions_text(const std::vector<MeanSeries>& series) {
+  std::set<std::string> versions;
   for (const MeanSeries& s : series) {
-    std::string& list = groups[{s.particles, s.most_realizations()}];
-    list += (list.empty() ? "e = " : ", ") + restitution_text(s.e);
+    versions.insert(s.code_versions.begin(), s.code_versions.end());
   }
-  std::string text = fmt::format("n = {:.2f}", series.front().n);
+  return versions.empty() ? "" : fmt::format(" haff {}.", fmt::join(versions, ", "));
+}
+
+std::string provenance(const std::vector<MeanSeries>& series) {
+  // One of e and n is common to all; of the other, those that share particles and realizations are
+  // named together.
+  const bool densities = series.front().n != series.back().n;
+  std::map<std::pair<std::int64_t, std::string>, std::string> groups;
+  for (const MeanSeries& s : series) {
+    std::string& list = groups[{s.particles, realizations_text(s)}];
+    list += (list.empty() ? (densities ? "n = " : "e = ") : ", ") +
+            (densities ? density_text(s.n) : restitution_text(s.e));
+  }
+  std::string text = densities ? "e = " + restitution_text(series.front().e)
+                               : "n = " + density_text(series.front().n);
   for (const auto& [key, list] : groups) {
-    const auto& [particles, realizations] = key;
-    text += fmt::format("; {}: N = {}, {}", list, count_text(particles),
-                        realizations == 1 ? "one realization"
-                                          : fmt::format("mean of {} realizations", realizations));
+    text += fmt::format("; {}: N = {}, {}", list, count_text(key.first), key.second);
   }
-  return text + ".";
+  return text + "." + versions_text(series);
 }
 
 std::string error_note(const std::vector<MeanSeries>& series) {

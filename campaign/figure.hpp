@@ -16,12 +16,22 @@ namespace haff::campaign {
 // The density of the paper's base case [sigma^-d].
 inline constexpr double base_density = 0.40;
 
+// e of the paper's figures over densities.
+inline constexpr double densities_restitution = 0.85;
+
 // e with at least two decimals, as the paper writes it: 0.80, 0.865.
 std::string restitution_text(double e);
 
-// Where the measured curves come from, for captions: "n = 0.40; e = 0.80, 0.90: N = 32 000, mean
-// of 2 realizations."
+// n likewise.
+std::string density_text(double n);
+
+// Where the measured curves, which have n or e in common, come from, for captions: "n = 0.40;
+// e = 0.80, 0.90: N = 32 000, mean of 2 realizations. haff 0.1.0 (1a2b3c4d)." Realizations that
+// ended earlier, or are not done, are said.
 std::string provenance(const std::vector<MeanSeries>& series);
+
+// The programs that made them, for captions: " haff 0.1.0 (1a2b3c4d)."; nothing if unknown.
+std::string versions_text(const std::vector<MeanSeries>& series);
 
 // Said of error bars or bands, if any series has them.
 std::string error_note(const std::vector<MeanSeries>& series);
@@ -40,7 +50,10 @@ std::optional<Plot> figure_01(const Averages& averages);
 std::optional<Plot> figure_02(const Averages& averages);
 std::optional<Plot> figure_04(const Averages& averages);
 std::optional<Plot> figure_05(const Averages& averages);
+std::optional<Plot> figure_06(const Averages& averages);
+std::optional<Plot> figure_07(const Averages& averages);
 std::optional<Plot> figure_11(const Averages& averages);
+std::optional<Plot> figure_12(const Averages& averages);
 std::optional<Plot> figure_13(const Averages& averages);
 
 }  // namespace haff::campaign

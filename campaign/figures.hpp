@@ -1,8 +1,10 @@
 // `campaign figures`: the paper's figures from what the store holds.
 //
 // For each figure figure-01.csv (what is drawn, every sample), figure-01.svg and figure-01.png
-// (drawn by gnuplot). Measured curves are means over realizations with their standard errors, of
-// jobs that are done; theory curves come from the analysis room.
+// (drawn by gnuplot); unless single figures were asked for, also index.html, which shows all of
+// them with their captions beside what is published, and agreement.csv, its table. Measured curves
+// are means over realizations with their standard errors, of jobs that are done; theory curves come
+// from the analysis room.
 //
 // Figures as in R. Kawahara and H. Nakanishi, cond-mat/0309130.
 #pragma once
@@ -29,8 +31,8 @@ struct FigureRequest {
 // Draws, and tells `report` of each figure: its files and caption, or what the store lacks and
 // what to plan for it. Returns an exit code:
 //   0  every figure asked for is drawn; where none was named, at least one is
-//   1  a figure that was named is not (the store lacks its data, or this version does not draw
-//      it); or there is none to draw; or gnuplot is not installed (the CSV files are written)
+//   1  a figure that was named is not (the store lacks its data); or there is none to draw; or
+//      gnuplot is not installed (the CSV files are written)
 // Throws UnknownFigure (bad command line), std::runtime_error if a file cannot be written or
 // gnuplot fails, and the errors of the store.
 int draw_figures(const schema::Reader& store, const FigureRequest& request, std::ostream& report);

@@ -29,18 +29,17 @@ constexpr std::size_t caption_width = 90;
 constexpr std::size_t caption_lines = 2;
 constexpr double caption_spacing = 0.031;
 
-// Colours by Okabe and Ito (without yellow, which is faint on white), and 9 steps of viridis
-// (S. van der Walt and N. Smith), from dark to light.
+// Colours by Okabe and Ito (without yellow, which is faint on white), and steps of viridis (S.
+// van der Walt and N. Smith), from dark to light but for its faint yellow.
 constexpr std::array<std::string_view, 6> okabe_ito = {"#0072B2", "#D55E00", "#009E73",
                                                        "#CC79A7", "#E69F00", "#56B4E9"};
-constexpr std::array<std::array<double, 3>, 8> viridis = {{{68, 1, 84},
+constexpr std::array<std::array<double, 3>, 7> viridis = {{{68, 1, 84},
                                                            {70, 50, 126},
                                                            {54, 92, 141},
                                                            {39, 127, 142},
                                                            {31, 161, 135},
                                                            {74, 193, 109},
-                                                           {160, 218, 57},
-                                                           {221, 227, 24}}};
+                                                           {160, 218, 57}}};
 
 std::string_view word(Source source) {
   switch (source) {
@@ -231,7 +230,12 @@ double round_step(double at_least) {
 
 std::string colour(std::size_t place, std::size_t of) {
   if (of <= okabe_ito.size()) return std::string(okabe_ito[place % okabe_ito.size()]);
-  const double at = static_cast<double>(place) / static_cast<double>(of - 1) *
+  return shade(place, of);
+}
+
+std::string shade(std::size_t place, std::size_t of) {
+  const double at = static_cast<double>(place) /
+                    static_cast<double>(std::max<std::size_t>(of, 2) - 1) *
                     static_cast<double>(viridis.size() - 1);
   const std::size_t low = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
   const double share = at - static_cast<double>(low);

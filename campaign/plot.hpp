@@ -78,8 +78,11 @@ double decade_below(double value);
 double round_step(double at_least);
 
 // Colours that stay apart for the colour-blind and in grey: M. Okabe and K. Ito (2008) for up to
-// six curves, an even walk through viridis for more.
+// six curves, shades for more.
 std::string colour(std::size_t place, std::size_t of);
+
+// An even walk through viridis, from dark to light, for curves that have an order.
+std::string shade(std::size_t place, std::size_t of);
 
 // The table: a line of column names, then a row a point, reals with 17 digits, absent values
 // empty. Throws std::runtime_error if the file cannot be written.

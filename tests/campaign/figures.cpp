@@ -23,6 +23,7 @@ schema::Store first_campaign(int seeds = 2) {
   auto store = schema::Store::create(":memory:");
   add_finished(store, 0.8, 0.4, 2000, seeds, 90);
   add_finished(store, 0.9, 0.4, 2000, seeds, 180);
+  add_finished(store, 0.85, 0.2, 2000, seeds, 40);
   return store;
 }
 
@@ -50,13 +51,24 @@ TEST_CASE("figures: a small campaign gives tables and pictures of all it can dra
   const TemporaryFolder folder;
   const auto drawn = draw(first_campaign(), folder.path() / "made" / "here");
   CHECK(drawn.code == 0);
-  for (const char* name : {"01", "02", "04", "05", "11", "13"}) {
+  for (const char* name : {"01", "02", "04", "05", "06", "07", "11", "12", "13"}) {
     const auto file = folder.path() / "made" / "here" / (std::string("figure-") + name);
     CHECK(contents(file.string() + ".csv").starts_with("panel,curve,kind,"));
     CHECK(contents(file.string() + ".svg").find("</svg>") != std::string::npos);
     CHECK(contents(file.string() + ".png").starts_with("\x89PNG"));
   }
-  CHECK(drawn.report.find("N = 2 000, mean of 2 realizations") != std::string::npos);
+  CHECK(drawn.report.find("N = 2 000, mean of 2 realizations. haff synthetic.") !=
+        std::string::npos);
+}
+
+TEST_CASE("figures: a page shows them all, beside a table of agreement") {
+  const TemporaryFolder folder;
+  const auto drawn = draw(first_campaign(), folder.path());
+  CHECK(drawn.report.find("index.html") != std::string::npos);
+  const std::string page = contents(folder.path() / "index.html");
+  CHECK(page.find("src=\"figure-01.svg\"") != std::string::npos);
+  CHECK(page.find("Figure 13") != std::string::npos);
+  CHECK(contents(folder.path() / "agreement.csv").find("\ntau_c,") != std::string::npos);
 }
 
 TEST_CASE("figures: one realization is drawn too, without errors") {
@@ -72,6 +84,7 @@ TEST_CASE("figures: only those asked for are drawn") {
   CHECK(draw(first_campaign(), folder.path(), {2}).code == 0);
   CHECK(std::filesystem::exists(folder.path() / "figure-02.svg"));
   CHECK_FALSE(std::filesystem::exists(folder.path() / "figure-01.svg"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "index.html"));
 }
 
 TEST_CASE("figures: a figure asked for whose data is missing is named, with a grid that gives it") {
@@ -153,4 +166,28 @@ TEST_CASE("captions: gases of the same size and number of realizations are named
   CHECK(provenance(series) ==
         "n = 0.40; e = 0.80, 0.865: N = 32 000, mean of 2 realizations; e = 0.85: N = 600 000, one "
         "realization.");
+}
+
+TEST_CASE("captions: of densities the restitution is common; what is missing is said") {
+  std::vector<MeanSeries> series(2);
+  series[0] = {
+      .e = 0.85, .n = 0.05, .particles = 1000, .realizations = {3, 3, 2}, .tau = {0, 1, 2}};
+  series[1] = {.e = 0.85, .n = 0.4, .particles = 1000, .realizations = {3}, .tau = {0}};
+  series[1].missing = 1;
+  series[1].code_versions = {"0.1.0 (1a2b)"};
+  CHECK(provenance(series) ==
+        "e = 0.85; n = 0.40: N = 1 000, mean of 3 realizations (1 planned not done); n = 0.05: N = "
+        "1 000, mean of 3 realizations (2 beyond τ = 1). haff 0.1.0 (1a2b).");
+}
+
+TEST_CASE("figure 7: smoothed over the paper's windows, against tau/tau_c") {
+  const auto plot = figure_07(read_averages(first_campaign()));
+  REQUIRE(plot);
+  const Curve& curve = plot->panels.front().curves.front();
+  CHECK(curve.e == 0.8);
+  const auto averages = read_averages(first_campaign());
+  const auto chosen = choose_series(averages, 0.4, &MeanSeries::a2);
+  const Realization& run = chosen.front().runs.front();
+  CHECK(curve.x[10] == doctest::Approx(10 / *run.tau_c));
+  CHECK(curve.y[10] == doctest::Approx((run.a2[9] + run.a2[10] + run.a2[11]) / 3));
 }
