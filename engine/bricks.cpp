@@ -5,7 +5,7 @@
 namespace haff::engine {
 
 Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inverse_(box.inverse) {
-  if (particles > particle_mask)
+  if (particles > particle_in(particle_bits))
     throw std::length_error("the engine holds at most 2^28 - 1 particles");
   const double volume = box.side * box.side * box.side;
   const double cell = std::max(smallest_cell, std::cbrt(smallest_occupancy * volume / particles));
@@ -15,6 +15,8 @@ Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inver
       std::clamp(box.side / (2 * cell), 2.0, static_cast<double>(most_cells / 2)));
   cells_ = 2 * bricks_;
   cell_side_ = box.side / cells_;
+  stride_ = {1, bricks_, bricks_ * bricks_};
+  for (unsigned axis = 0; axis < 3; ++axis) wrap_[axis] = (bricks_ - 1) * stride_[axis];
   lines_.resize(std::size_t{bricks_} * bricks_ * bricks_);
   clear();
 }
@@ -35,7 +37,7 @@ Cell Bricks::locate(const Vector& position) const {
 
 void Bricks::insert(std::uint32_t particle, Cell cell) {
   const std::uint32_t brick = brick_of(cell);
-  const std::uint32_t entry = occupied | half_of(cell) << half_shift | particle;
+  const std::uint32_t entry = occupied | half_of(cell) << half_shift | particle << particle_shift;
   for (std::uint32_t& slot : lines_[brick].slot) {
     if (slot == 0) {
       slot = entry;
@@ -47,9 +49,9 @@ void Bricks::insert(std::uint32_t particle, Cell cell) {
 
 std::uint32_t& Bricks::find(std::uint32_t brick, std::uint32_t particle) {
   for (std::uint32_t& slot : lines_[brick].slot)
-    if ((slot & particle_mask) == particle && slot != 0) return slot;
+    if (particle_in(slot) == particle && slot != 0) return slot;
   for (std::uint32_t& entry : overflow_.at(brick))
-    if ((entry & particle_mask) == particle) return entry;
+    if (particle_in(entry) == particle) return entry;
   __builtin_unreachable();
 }
 
@@ -72,12 +74,9 @@ void Bricks::remove(std::uint32_t particle, Cell cell) {
 }
 
 Cell Bricks::cross(std::uint32_t particle, Cell cell, Face face) {
-  const unsigned axis = face / 2;
-  const std::uint32_t c = cell[axis];
-  Cell to = cell;
-  to.set(axis, (face & 1) != 0 ? (c + 1 == cells_ ? 0 : c + 1) : (c == 0 ? cells_ - 1 : c - 1));
+  const Cell to = across(cell, face);
   if (brick_of(to) == brick_of(cell)) {
-    find(brick_of(cell), particle) ^= 1u << (half_shift + axis);
+    find(brick_of(cell), particle) ^= 1u << (half_shift + face / 2);
   } else {
     remove(particle, cell);
     insert(particle, to);

@@ -3,8 +3,8 @@
 // A brick is 2 x 2 x 2 cells. Its particles lie in 16 slots of one 64-byte line, filled from the
 // front; a slot says which particle and, in three bits, in which half of the brick along x, y, z.
 // The 27 cells around any cell lie in 8 bricks, and in each of them the wanted cells are "that half
-// along these axes": one AND and one comparison a slot. So a neighbourhood costs 8 lines, and a
-// crossing within a brick changes one bit.
+// along these axes": one AND and one comparison a slot, with masks from a small table. So a
+// neighbourhood costs 8 lines, and a crossing within a brick changes one bit.
 //
 // A brick with more than 16 particles (a dense cluster) keeps the rest in an overflow list that
 // nobody looks at unless the sixteenth slot is taken.
@@ -44,9 +44,12 @@ struct Exit {
 class Bricks {
  public:
   static constexpr std::uint32_t slots = 16;
-  static constexpr std::uint32_t occupied = 1u << 31;
-  static constexpr unsigned half_shift = 28;  // three bits: which half along x, y, z
-  static constexpr std::uint32_t particle_mask = (1u << half_shift) - 1;
+  // A slot, from its lowest bit: 1, the three halves, and the particle's number.
+  static constexpr std::uint32_t occupied = 1;
+  static constexpr unsigned half_shift = 1;
+  static constexpr unsigned particle_shift = 4;
+  static constexpr std::uint32_t particle_bits = ~0u << particle_shift;
+  static constexpr std::uint32_t particle_in(std::uint32_t slot) { return slot >> particle_shift; }
 
   struct alignas(64) Line {
     std::array<std::uint32_t, slots> slot;  // 0 where empty
@@ -54,10 +57,14 @@ class Bricks {
 
   // Some bricks, and in each the slots with (slot & care) == value.
   template <std::size_t count>
-  struct Wanted {
-    std::array<std::uint32_t, count> brick;
+  struct Masks {
     std::array<std::uint32_t, count> care;
     std::array<std::uint32_t, count> value;
+  };
+  template <std::size_t count>
+  struct Wanted {
+    std::array<std::uint32_t, count> brick;
+    const Masks<count>* masks;
   };
 
   Bricks(const Box& box, std::uint32_t particles);
@@ -97,15 +104,57 @@ class Bricks {
            ((cell.packed >> 1) & 511);
   }
   static std::uint32_t half_of(Cell cell) {
-    return (cell[0] & 1) | (cell[1] & 1) << 1 | (cell[2] & 1) << 2;
+    return (cell.packed & 1) | (cell.packed >> 9 & 2) | (cell.packed >> 18 & 4);
   }
+  Cell across(Cell cell, Face face) const {
+    const unsigned axis = face / 2;
+    const std::uint32_t c = cell[axis];
+    cell.set(axis, (face & 1) != 0 ? (c + 1 == cells_ ? 0 : c + 1) : (c == 0 ? cells_ : c) - 1);
+    return cell;
+  }
+  // From a cell's brick to the other one that its neighbours along that axis are in.
+  std::uint32_t step(Cell cell, unsigned axis) const {
+    const std::uint32_t own = cell[axis] >> 1;
+    const std::uint32_t up = own == bricks_ - 1 ? 0 - wrap_[axis] : stride_[axis];
+    const std::uint32_t down = own == 0 ? wrap_[axis] : 0 - stride_[axis];
+    return (cell[axis] & 1) != 0 ? up : down;
+  }
+
+  // By the half a cell is in. Of brick n, which is its own but for the axes whose bit is set, only
+  // the half that touches the cell.
+  static constexpr auto around_masks = [] {
+    std::array<Masks<8>, 8> masks{};
+    for (std::uint32_t half = 0; half < 8; ++half)
+      for (std::uint32_t n = 0; n < 8; ++n) {
+        masks[half].care[n] = occupied | n << half_shift;
+        masks[half].value[n] = occupied | (n & ~half) << half_shift;
+      }
+    return masks;
+  }();
+  // By axis and half. Around a cell of the layer beyond a face, those bricks that hold the layer
+  // itself; in them only its half.
+  static constexpr auto beyond_masks = [] {
+    std::array<std::array<Masks<4>, 8>, 3> masks{};
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
+      for (std::uint32_t half = 0; half < 8; ++half)
+        for (std::uint32_t k = 0; k < 4; ++k) {
+          const std::uint32_t bit = 1u << axis;
+          const std::uint32_t n = (k & ~(bit - 1)) << 1 | (k & (bit - 1));  // k, a zero at the axis
+          masks[axis][half].care[k] = around_masks[half].care[n] | bit << half_shift;
+          masks[axis][half].value[k] = around_masks[half].value[n] | (half & bit) << half_shift;
+        }
+    return masks;
+  }();
+
   std::uint32_t& find(std::uint32_t brick, std::uint32_t particle);
   void remove(std::uint32_t particle, Cell cell);
 
-  double side_;           // of the box
-  double inverse_;        // of that
-  std::uint32_t cells_;   // along an axis, even
-  std::uint32_t bricks_;  // along an axis
+  double side_;                          // of the box
+  double inverse_;                       // of that
+  std::uint32_t cells_;                  // along an axis, even
+  std::uint32_t bricks_;                 // along an axis
+  std::array<std::uint32_t, 3> stride_;  // from a brick to the next along an axis,
+  std::array<std::uint32_t, 3> wrap_;    // and from the first to the last
   double cell_side_;
   HugeVector<Line> lines_;
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> overflow_;
@@ -126,47 +175,21 @@ class Bricks {
 }
 
 [[gnu::always_inline]] inline Bricks::Wanted<8> Bricks::around(Cell cell) const {
-  // Along each axis the own brick and the one on the side where the cell lies; of the latter only
-  // the half that touches.
-  const std::uint32_t last = bricks_ - 1;
-  std::uint32_t step[3];  // to the neighbour's number, which wraps
-  std::uint32_t stride = 1;
-  for (unsigned axis = 0; axis < 3; ++axis, stride *= bricks_) {
-    const std::uint32_t own = cell[axis] >> 1;
-    const std::uint32_t up = own == last ? 0 - last : 1;
-    const std::uint32_t down = own == 0 ? last : 0 - 1u;
-    step[axis] = ((cell[axis] & 1) != 0 ? up : down) * stride;
-  }
   const std::uint32_t own = brick_of(cell);
-  const std::uint32_t touching = ~half_of(cell);
-  Wanted<8> wanted;
-  for (std::uint32_t n = 0; n < 8; ++n) {
-    const std::uint32_t brick = own + ((n & 1) != 0 ? step[0] : 0) + ((n & 2) != 0 ? step[1] : 0) +
-                                ((n & 4) != 0 ? step[2] : 0);
-    wanted.brick[n] = brick;
-    wanted.care[n] = occupied | n << half_shift;
-    wanted.value[n] = occupied | (n & touching) << half_shift;
-  }
-  return wanted;
+  const std::uint32_t x = step(cell, 0);
+  const std::uint32_t y = step(cell, 1);
+  const std::uint32_t z = step(cell, 2);
+  return {{own, own + x, own + y, own + x + y, own + z, own + x + z, own + y + z, own + x + y + z},
+          &around_masks[half_of(cell)]};
 }
 
 [[gnu::always_inline]] inline Bricks::Wanted<4> Bricks::beyond(Cell cell, Face face) const {
   const unsigned axis = face / 2;
-  const std::uint32_t c = cell[axis];
-  Cell layer = cell;
-  layer.set(axis, (face & 1) != 0 ? (c + 1 == cells_ ? 0 : c + 1) : (c == 0 ? cells_ - 1 : c - 1));
-  // Around a cell of the layer, those bricks that hold the layer itself; in them only its half.
-  const Wanted<8> all = around(layer);
-  const std::uint32_t bit = 1u << axis;
-  const std::uint32_t half = half_of(layer) & bit;
-  Wanted<4> wanted;
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    const std::uint32_t n = (k & ~(bit - 1)) << 1 | (k & (bit - 1));  // k with a zero at the axis
-    wanted.brick[k] = all.brick[n];
-    wanted.care[k] = all.care[n] | bit << half_shift;
-    wanted.value[k] = all.value[n] | half << half_shift;
-  }
-  return wanted;
+  const Cell layer = across(cell, face);
+  const std::uint32_t own = brick_of(layer);
+  const std::uint32_t a = step(layer, axis == 0 ? 1 : 0);
+  const std::uint32_t b = step(layer, axis == 2 ? 1 : 2);
+  return {{own, own + a, own + b, own + a + b}, &beyond_masks[axis][half_of(layer)]};
 }
 
 }  // namespace haff::engine

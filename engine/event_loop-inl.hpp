@@ -120,14 +120,20 @@ class EventLoop {
       });
       gas_.calendar.look_into(looked_at_ + 2 * stride, [&](std::uint32_t p) {
         const Event& event = gas_.calendar[p];
-        search_.prefetch_bricks(event.cell);
         if (event.face == Event::contact) {
           __builtin_prefetch(gas_.particles.data() + event.partner, 1, 2);
           __builtin_prefetch(&gas_.calendar[event.partner], 1, 2);
+          search_.prefetch_bricks_around(event.cell);
+        } else {
+          search_.prefetch_bricks_beyond(event.cell, event.face);
         }
       });
       gas_.calendar.look_into(looked_at_ + stride, [&](std::uint32_t p) {
-        search_.prefetch_particles(gas_.calendar[p].cell);
+        const Event& event = gas_.calendar[p];
+        if (event.face == Event::contact)
+          search_.prefetch_particles_around(event.cell);
+        else
+          search_.prefetch_particles_beyond(event.cell, event.face);
       });
     }
   }

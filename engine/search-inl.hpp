@@ -55,14 +55,17 @@ class SimdSearch {
     return {first, second};
   }
 
-  HWY_INLINE void prefetch_bricks(Cell cell) const {
-    for (const std::uint32_t brick : gas_.bricks.around(cell).brick)
-      __builtin_prefetch(&gas_.bricks.line(brick), 0, 2);
+  HWY_INLINE void prefetch_bricks_around(Cell cell) const {
+    prefetch_bricks(gas_.bricks.around(cell));
   }
-  HWY_INLINE void prefetch_particles(Cell cell) {
-    const std::size_t count = gather(0, gas_.bricks.around(cell), list_);
-    for (std::size_t k = 0; k < count; ++k)
-      __builtin_prefetch(gas_.particles.data() + list_[k], 0, 2);
+  HWY_INLINE void prefetch_bricks_beyond(Cell cell, Face face) const {
+    prefetch_bricks(gas_.bricks.beyond(cell, face));
+  }
+  HWY_INLINE void prefetch_particles_around(Cell cell) {
+    prefetch_particles(gas_.bricks.around(cell));
+  }
+  HWY_INLINE void prefetch_particles_beyond(Cell cell, Face face) {
+    prefetch_particles(gas_.bricks.beyond(cell, face));
   }
 
   // Bricks::exit() for the three axes at once.
@@ -100,6 +103,18 @@ class SimdSearch {
   }
 
  private:
+  template <std::size_t bricks>
+  HWY_INLINE void prefetch_bricks(const Bricks::Wanted<bricks>& wanted) const {
+    for (const std::uint32_t brick : wanted.brick)
+      __builtin_prefetch(&gas_.bricks.line(brick), 0, 2);
+  }
+  template <std::size_t bricks>
+  HWY_INLINE void prefetch_particles(const Bricks::Wanted<bricks>& wanted) {
+    const std::size_t count = gather(0, wanted, list_);
+    for (std::size_t k = 0; k < count; ++k)
+      __builtin_prefetch(gas_.particles.data() + list_[k], 0, 2);
+  }
+
   using Slots = hn::CappedTag<std::uint32_t, 8>;
   using Reals = hn::CappedTag<double, 4>;
   using V = hn::Vec<Reals>;
@@ -114,20 +129,22 @@ class SimdSearch {
     const Slots d;
     std::uint32_t* candidates = list.data();
     std::size_t count = 0;
-    const auto particle = hn::Set(d, Bricks::particle_mask);
     const Bricks::Line* const lines = &gas_.bricks.line(0);
 #pragma GCC unroll 8
     for (std::size_t n = 0; n < bricks; ++n) {
-      const std::uint32_t* slot = lines[wanted.brick[n]].slot.data();
-      const auto care = hn::Set(d, wanted.care[n]);
-      const auto value = hn::Set(d, wanted.value[n]);
+      const std::uint32_t* const slot = lines[wanted.brick[n]].slot.data();
+      const auto care = hn::Set(d, wanted.masks->care[n]);
+      const auto value = hn::Set(d, wanted.masks->value[n]);
       const auto take_half = [&](std::size_t from) HWY_ATTR __attribute__((always_inline)) {
         for (std::size_t k = from; k < from + 8; k += hn::MaxLanes(d)) {
           const auto slots = hn::Load(d, slot + k);
           std::uint8_t bits = 0;
           hn::StoreMaskBits(d, hn::Eq(hn::And(slots, care), value), &bits);
-          const auto lanes = hn::IndicesFromVec(d, hn::Load(d, compress_table.lanes[bits]));
-          hn::StoreU(hn::TableLookupLanes(hn::And(slots, particle), lanes), d, candidates + count);
+          const auto lanes = hn::IndicesFromVec(
+              d, hn::PromoteTo(
+                     d, hn::Load(hn::Rebind<std::uint8_t, Slots>(), compress_table.lanes[bits])));
+          const auto particles = hn::ShiftRight<Bricks::particle_shift>(slots);
+          hn::StoreU(hn::TableLookupLanes(particles, lanes), d, candidates + count);
           count += static_cast<std::size_t>(std::popcount(bits));
         }
       };
@@ -135,7 +152,8 @@ class SimdSearch {
       if (HWY_UNLIKELY(slot[8] != 0)) {  // slots are filled from the front
         take_half(8);
         if (HWY_UNLIKELY(slot[15] != 0)) {
-          count = gather_overflow(wanted.brick[n], wanted.care[n], wanted.value[n], list, count);
+          count = gather_overflow(wanted.brick[n], wanted.masks->care[n], wanted.masks->value[n],
+                                  list, count);
           candidates = list.data();
         }
       }
@@ -148,7 +166,7 @@ class SimdSearch {
                                            std::uint32_t value, List& list, std::size_t count) {
     for (const std::uint32_t slot : gas_.bricks.overflow(brick))
       if ((slot & care) == value) {
-        list[count++] = slot & Bricks::particle_mask;
+        list[count++] = Bricks::particle_in(slot);
         if (list.size() < count + 8 * Bricks::slots + slack) list.resize(2 * list.size());
       }
     return count;

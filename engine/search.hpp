@@ -21,9 +21,9 @@ struct CompressTable {
   constexpr CompressTable() {
     for (std::uint32_t mask = 0; mask < 256; ++mask)
       for (std::uint32_t bit = 0, next = 0; bit < 8; ++bit)
-        if ((mask >> bit & 1) != 0) lanes[mask][next++] = bit;
+        if ((mask >> bit & 1) != 0) lanes[mask][next++] = static_cast<std::uint8_t>(bit);
   }
-  alignas(32) std::uint32_t lanes[256][8] = {};
+  alignas(8) std::uint8_t lanes[256][8] = {};
 };
 inline constexpr CompressTable compress_table;
 
@@ -40,8 +40,8 @@ struct Near {
   static void visit(const Gas& gas, const Bricks::Wanted<count>& wanted, const Visit& visit) {
     for (std::size_t n = 0; n < count; ++n) {
       const auto take = [&](std::uint32_t slot) {
-        if ((slot & wanted.care[n]) == wanted.value[n])
-          visit(slot & Bricks::particle_mask, Vector{0, 0, 0});
+        if ((slot & wanted.masks->care[n]) == wanted.masks->value[n])
+          visit(Bricks::particle_in(slot), Vector{0, 0, 0});
       };
       for (const std::uint32_t slot : gas.bricks.line(wanted.brick[n]).slot) take(slot);
       for (const std::uint32_t slot : gas.bricks.overflow(wanted.brick[n])) take(slot);
@@ -82,8 +82,10 @@ class PlainSearch {
   Exit exit(std::uint32_t p, Cell cell, double now) const {
     return gas_.bricks.exit(gas_.particles[p], cell, now);
   }
-  void prefetch_bricks(Cell) const {}
-  void prefetch_particles(Cell) const {}
+  void prefetch_bricks_around(Cell) const {}
+  void prefetch_bricks_beyond(Cell, Face) const {}
+  void prefetch_particles_around(Cell) const {}
+  void prefetch_particles_beyond(Cell, Face) const {}
 
  private:
   template <std::size_t count>
