@@ -29,11 +29,12 @@ std::int64_t integer(const schema::Value& value) {
 // Rows of smooth spheres with constant restitution.
 constexpr const char* plain_gas = " d = 3 AND effects = '{}'";
 
-// What tells series apart: columns 4 to 7 those of the same gas that were prepared or sampled in
+// What tells series apart: columns 4 to 9 those of the same gas that were prepared or sampled in
 // other ways.
 constexpr const char* key_columns =
-    "e, n, particles, sample_every, equilibrate, precision, observables";
-constexpr std::size_t keys = 7;
+    "e, n, particles, sample_every, equilibrate, precision, observables, "
+    "coalesce(profiles_every, 0), coalesce(fields_at, '')";
+constexpr std::size_t keys = 9;
 
 schema::Row key_of(const schema::Row& row) {
   return {row.begin(), row.begin() + keys};

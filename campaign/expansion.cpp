@@ -44,6 +44,8 @@ void for_each_job(const schema::SubGrid& grid, Visit&& visit) {
               job.equilibrate = equilibrate;
               job.sample_every = sample_every;
               job.observables = grid.observables;
+              job.profiles_every = grid.profiles_every;
+              job.fields_at = grid.fields_at;
               visit(job, grid.tau_max[k]);
             }
 }

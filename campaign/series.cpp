@@ -17,12 +17,24 @@ namespace {
 
 // Equal for realizations of one series, and ordered as tables are.
 using Key = std::tuple<int, double, std::int64_t, double, double, double, std::string, std::string,
-                       std::string>;
+                       std::string, std::optional<double>, std::string>;
+
+std::string fields_at(const schema::Job& job) {
+  return job.fields_at.empty() ? "" : schema::fields_at_text(job.fields_at);
+}
 
 Key key_of(const schema::Job& job) {
-  return {job.d,         job.n,           job.particles,
-          job.e,         job.equilibrate, job.sample_every,
-          job.precision, job.effects,     schema::observables_text(job.observables)};
+  return {job.d,
+          job.n,
+          job.particles,
+          job.e,
+          job.equilibrate,
+          job.sample_every,
+          job.precision,
+          job.effects,
+          schema::observables_text(job.observables),
+          job.profiles_every,
+          fields_at(job)};
 }
 
 struct TauC {
@@ -39,7 +51,7 @@ std::optional<double> real_or_null(const schema::Value& value) {
 std::map<Key, TauC> mean_tau_c(const schema::Reader& store) {
   auto rows = store.query(
       "SELECT d, n, particles, e, equilibrate, sample_every, precision, effects, observables, "
-      "reached, tau_c, tau_c_se FROM mean_tau_c");
+      "profiles_every, coalesce(fields_at, ''), reached, tau_c, tau_c_se FROM mean_tau_c");
   std::map<Key, TauC> means;
   while (const auto row = rows.next()) {
     const auto integer = [&](std::size_t k) { return std::get<std::int64_t>((*row)[k]); };
@@ -53,8 +65,11 @@ std::map<Key, TauC> mean_tau_c(const schema::Reader& store) {
                   real(5),
                   text(6),
                   text(7),
-                  text(8)};
-    means[key] = {static_cast<int>(integer(9)), real_or_null((*row)[10]), real_or_null((*row)[11])};
+                  text(8),
+                  real_or_null((*row)[9]),
+                  text(10)};
+    means[key] = {static_cast<int>(integer(11)), real_or_null((*row)[12]),
+                  real_or_null((*row)[13])};
   }
   return means;
 }
@@ -94,6 +109,8 @@ class Rest {
     return {{"sample_every", number_text(job.sample_every)},
             {"equilibrate", number_text(job.equilibrate)},
             {"observables", schema::observables_text(job.observables)},
+            {"profiles_every", job.profiles_every ? number_text(*job.profiles_every) : "none"},
+            {"fields_at", fields_at(job)},
             {"precision", job.precision},
             {"effects", job.effects},
             {"d", std::to_string(job.d)}};

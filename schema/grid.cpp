@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "schema/document.hpp"
+#include "schema/job.hpp"
 #include "schema/rules.hpp"
 
 namespace haff::schema {
@@ -85,6 +86,14 @@ std::vector<Source> sources(const Json& document) {
   for (std::size_t i = 0; i < document["grids"].size(); ++i)
     list.emplace_back(document, Pointer() / "grids" / i);
   return list;
+}
+
+std::vector<std::string> observables(const Source& source) {
+  std::vector<std::string> names;
+  for (const Placed& item : items(source["observables"]))
+    names.push_back(item.value.get<std::string>());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 // ---- rules that a JSON schema cannot express --------------------------------------------------
@@ -182,7 +191,41 @@ class Examiner {
     }
   }
 
+  // Profiles and fields belong to samples within the run.
+  void in_step(const Source& source, const std::vector<double>& tau_max) const {
+    const auto names = observables(source);
+    const double longest = *std::max_element(tau_max.begin(), tau_max.end());
+    const auto belongs = [&](const Placed& item) {
+      const double tau = item.value.get<double>();
+      if (tau > longest)
+        throw fault(
+            file_, item.where,
+            shown(item.value) + " is beyond the run; expected at most tau_max = " + text(longest));
+      for (const double sample_every : source.list<double>("sample_every"))
+        if (!is_multiple(tau, sample_every))
+          throw fault(file_, item.where,
+                      shown(item.value) +
+                          " falls between samples; expected a multiple of sample_every = " +
+                          text(sample_every));
+    };
+    if (std::any_of(names.begin(), names.end(), is_profile)) belongs(source["profiles_every"]);
+    if (std::none_of(names.begin(), names.end(), is_field)) return;
+    const auto moments = source.find("fields_at");
+    if (!moments)
+      throw fault(file_, source.where(),
+                  "has no \"fields_at\", and lists fields among its observables; expected " +
+                      description("fields_at"));
+    for (const Placed& item : items(*moments)) belongs(item);
+  }
+
  private:
+  // Both are rounded: what differs by less than this is the same place. [relative]
+  static bool is_multiple(double tau, double interval) {
+    constexpr double rounding = 1e-9;
+    return std::abs(tau / interval - std::round(tau / interval)) <=
+           rounding * std::max(1.0, tau / interval);
+  }
+
   void fits_in_memory(const Placed& particles, double N) const {
     const double bytes = N * memory_.bytes_per_particle;
     if (bytes > memory_.bytes || N >= most_particles)
@@ -263,23 +306,27 @@ std::vector<std::uint64_t> seeds(const Placed& placed) {
   return list;
 }
 
-std::vector<std::string> observables(const Placed& placed) {
-  std::vector<std::string> names;
-  for (const Placed& item : items(placed)) names.push_back(item.value.get<std::string>());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {
-  return {.e = source.list<double>("e"),
-          .n = source.list<double>("n"),
-          .particles = source.list<std::uint32_t>("N"),
-          .seeds = seeds(source["seeds"]),
-          .tau_max = std::move(tau_max),
-          .sample_every = source.list<double>("sample_every"),
-          .equilibrate = source.list<double>("equilibrate"),
-          .checkpoint_every = source["checkpoint_every"].value.get<double>(),
-          .observables = observables(source["observables"])};
+  SubGrid grid{.e = source.list<double>("e"),
+               .n = source.list<double>("n"),
+               .particles = source.list<std::uint32_t>("N"),
+               .seeds = seeds(source["seeds"]),
+               .tau_max = std::move(tau_max),
+               .sample_every = source.list<double>("sample_every"),
+               .equilibrate = source.list<double>("equilibrate"),
+               .checkpoint_every = source["checkpoint_every"].value.get<double>(),
+               .observables = observables(source),
+               .profiles_every = std::nullopt,
+               .fields_at = {}};
+  // Kept where they decide what is measured: elsewhere two grids that differ in them are the same.
+  const auto& names = grid.observables;
+  if (std::any_of(names.begin(), names.end(), is_profile))
+    grid.profiles_every = source["profiles_every"].value.get<double>();
+  if (std::any_of(names.begin(), names.end(), is_field)) {
+    grid.fields_at = source.list<double>("fields_at");
+    std::sort(grid.fields_at.begin(), grid.fields_at.end());
+  }
+  return grid;
 }
 
 }  // namespace
@@ -299,6 +346,7 @@ Grid parse_grid(std::string_view text, const std::string& file, const Memory& me
     examiner.fits(source);
     auto tau_max = examiner.tau_max(source);
     examiner.sampled(source, tau_max);
+    examiner.in_step(source, tau_max);
     grid.grids.push_back(sub_grid(source, std::move(tau_max)));
   }
   return grid;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ struct SubGrid {
   std::vector<double> equilibrate;
   double checkpoint_every = 0;
   std::vector<std::string> observables;  // sorted
+  std::optional<double> profiles_every;  // where an observable is a profile
+  std::vector<double> fields_at;         // increasing; where fields are an observable
 };
 
 struct Grid {

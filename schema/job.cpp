@@ -45,21 +45,34 @@ Job equilibration_of(const Job& cooling) {
   job.sample_every = equilibration_sample_every;
   job.effects = "{}";
   job.observables = {"laguerre", "temperature"};
+  job.profiles_every = std::nullopt;
+  job.fields_at.clear();
   return job;
 }
 
 std::string identity(const Job& job) {
-  return R"({"d":)" + std::to_string(job.d) +                        //
-         R"(,"e":)" + real(job.e) +                                  //
-         R"(,"effects":)" + job.effects +                            //
-         R"(,"equilibrate":)" + real(job.equilibrate) +              //
+  return R"({"d":)" + std::to_string(job.d) +            //
+         R"(,"e":)" + real(job.e) +                      //
+         R"(,"effects":)" + job.effects +                //
+         R"(,"equilibrate":)" + real(job.equilibrate) +  //
+         (job.fields_at.empty() ? "" : R"(,"fields_at":)" + fields_at_text(job.fields_at)) +
          R"(,"kind":")" + std::string(name(job.kind)) +              //
          R"(","n":)" + real(job.n) +                                 //
          R"(,"observables":)" + observables_text(job.observables) +  //
          R"(,"particles":)" + std::to_string(job.particles) +        //
-         R"(,"precision":")" + job.precision +                       //
-         R"(","sample_every":)" + real(job.sample_every) +           //
+         R"(,"precision":")" + job.precision + R"(")" +              //
+         (job.profiles_every ? R"(,"profiles_every":)" + real(*job.profiles_every) : "") +
+         R"(,"sample_every":)" + real(job.sample_every) +  //
          R"(,"seed":)" + std::to_string(job.seed) + "}";
+}
+
+bool is_profile(std::string_view observable) {
+  return observable == "distribution" || observable == "correlations" ||
+         observable == "structure" || observable == "clusters";
+}
+
+bool is_field(std::string_view observable) {
+  return observable == "fields";
 }
 
 std::string observables_text(const std::vector<std::string>& observables) {
@@ -70,6 +83,16 @@ std::string observables_text(const std::vector<std::string>& observables) {
 
 std::vector<std::string> observables_in(const std::string& text) {
   return nlohmann::json::parse(text).get<std::vector<std::string>>();
+}
+
+std::string fields_at_text(const std::vector<double>& fields_at) {
+  std::string text;
+  for (const double tau : fields_at) text += (text.empty() ? "" : ",") + real(tau);
+  return "[" + text + "]";
+}
+
+std::vector<double> fields_at_in(const std::string& text) {
+  return nlohmann::json::parse(text).get<std::vector<double>>();
 }
 
 }  // namespace haff::schema

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,8 @@ struct Job {
   std::string precision = "double";
   std::string effects = "{}";                 // JSON object, keys sorted, no spaces
   std::vector<std::string> observables = {};  // listed in grid.schema.json; in any order
+  std::optional<double> profiles_every = {};  // profiles at tau = k profiles_every; empty: none
+  std::vector<double> fields_at = {};         // fields at these tau, increasing
 
   bool operator==(const Job&) const = default;
 };
@@ -68,13 +71,22 @@ inline constexpr double equilibration_sample_every = 10;
 Job equilibration_of(const Job& cooling);
 
 // The text that names a job: its physics as JSON, keys sorted, no spaces, reals in the shortest
-// form that reads back as the same double, observables sorted. The text itself is the identity,
+// form that reads back as the same double, observables sorted; profiles_every and fields_at are
+// there only in a job that takes profiles or fields. The text itself is the identity,
 // not a hash of it: two jobs are the same exactly if their texts are equal, a person can read
 // what differs, and the 200 bytes it takes are nothing beside a job's samples.
 std::string identity(const Job& job);
 
+// Whether an observable is taken every profiles_every, at fields_at, or else with every sample.
+bool is_profile(std::string_view observable);
+bool is_field(std::string_view observable);
+
 // ["laguerre","temperature"]: sorted JSON, as in the column jobs.observables. And back.
 std::string observables_text(const std::vector<std::string>& observables);
 std::vector<std::string> observables_in(const std::string& text);
+
+// [20,60], as in the column jobs.fields_at. And back.
+std::string fields_at_text(const std::vector<double>& fields_at);
+std::vector<double> fields_at_in(const std::string& text);
 
 }  // namespace haff::schema

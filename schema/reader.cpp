@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 
 #include "schema/checksum.hpp"
 #include "schema/database.hpp"
@@ -54,7 +55,7 @@ std::vector<JobRow> Reader::jobs() const {
     SQLite::Statement statement(database_->sqlite(), R"(
       SELECT * FROM jobs
       ORDER BY kind DESC, d, n, particles, e, equilibrate, sample_every, precision, effects,
-               observables, seed)");
+               observables, profiles_every, fields_at, seed)");
     std::vector<JobRow> rows;
     while (statement.executeStep()) rows.push_back(job_row(statement));
     return rows;
@@ -116,6 +117,45 @@ std::optional<Sample> Reader::last_sample(std::int64_t job_id, double tau) const
     statement.bind(2, tau);
     if (!statement.executeStep()) return std::nullopt;
     return sample(statement);
+  });
+}
+
+std::vector<Profile> Reader::profiles(std::int64_t job_id, const std::string& name) const {
+  return database_->guarded([&] {
+    SQLite::Statement points(
+        database_->sqlite(),
+        "SELECT tau, x, value FROM profiles WHERE job_id = ? AND name = ? ORDER BY tau, x");
+    points.bind(1, job_id);
+    points.bind(2, name);
+    std::vector<Profile> profiles;
+    while (points.executeStep()) {
+      const double tau = real(points, "tau");
+      if (profiles.empty() || profiles.back().tau != tau)
+        profiles.push_back({.name = name, .tau = tau});
+      profiles.back().x.push_back(real(points, "x"));
+      profiles.back().value.push_back(real(points, "value"));
+    }
+    return profiles;
+  });
+}
+
+std::optional<Field> Reader::field(std::int64_t job_id, const std::string& name, double tau) const {
+  return database_->guarded([&]() -> std::optional<Field> {
+    SQLite::Statement row(database_->sqlite(),
+                          "SELECT * FROM fields WHERE job_id = ? AND name = ? AND tau = ?");
+    row.bind(1, job_id);
+    row.bind(2, name);
+    row.bind(3, tau);
+    if (!row.executeStep()) return std::nullopt;
+    Field field{.name = name,
+                .tau = tau,
+                .cells = static_cast<int>(integer(row, "cells")),
+                .components = static_cast<int>(integer(row, "components")),
+                .box = real(row, "box")};
+    const auto data = row.getColumn("data");
+    field.values.resize(static_cast<std::size_t>(data.getBytes()) / sizeof(double));
+    std::memcpy(field.values.data(), data.getBlob(), field.values.size() * sizeof(double));
+    return field;
   });
 }
 

@@ -13,7 +13,10 @@ Job job_of(const SQLite::Statement& row) {
           .sample_every = real(row, "sample_every"),
           .precision = text(row, "precision"),
           .effects = text(row, "effects"),
-          .observables = observables_in(text(row, "observables"))};
+          .observables = observables_in(text(row, "observables")),
+          .profiles_every = optional_real(row, "profiles_every"),
+          .fields_at = row.isColumnNull("fields_at") ? std::vector<double>()
+                                                     : fields_at_in(text(row, "fields_at"))};
 }
 
 JobRow job_row(const SQLite::Statement& row) {
@@ -61,7 +64,9 @@ Sample sample(const SQLite::Statement& row) {
           .a3 = optional_real(row, "a3"),
           .a4 = optional_real(row, "a4"),
           .a5 = optional_real(row, "a5"),
-          .a6 = optional_real(row, "a6")};
+          .a6 = optional_real(row, "a6"),
+          .correlation_trace = optional_real(row, "correlation_trace"),
+          .largest_cluster = optional_real(row, "largest_cluster")};
 }
 
 CheckpointInfo checkpoint_info(const SQLite::Statement& row) {

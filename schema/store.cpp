@@ -1,6 +1,7 @@
 #include "schema/store.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 #include <stdexcept>
@@ -39,10 +40,12 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
   SQLite::Statement statement(
       sqlite,
       "INSERT INTO jobs (identity, kind, d, e, n, particles, seed, equilibrate, "
-      "sample_every, precision, effects, observables, tau_max, checkpoint_every, "
+      "sample_every, precision, effects, observables, profiles_every, fields_at, tau_max, "
+      "checkpoint_every, "
       "equilibration_id, expected_cpu_seconds, created) "
       "VALUES (:identity, :kind, :d, :e, :n, :particles, :seed, :equilibrate, "
-      ":sample_every, :precision, :effects, :observables, :tau_max, :checkpoint_every, "
+      ":sample_every, :precision, :effects, :observables, :profiles_every, :fields_at, :tau_max, "
+      ":checkpoint_every, "
       ":equilibration_id, :expected_cpu_seconds, " +
           now + ")");
   const Job& job = planned.job;
@@ -58,6 +61,8 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
   statement.bind(":precision", job.precision);
   statement.bind(":effects", job.effects);
   statement.bind(":observables", observables_text(job.observables));
+  bind(statement, ":profiles_every", job.profiles_every);
+  if (!job.fields_at.empty()) statement.bind(":fields_at", fields_at_text(job.fields_at));
   statement.bind(":tau_max", planned.tau_max);
   statement.bind(":checkpoint_every", planned.checkpoint_every);
   if (const auto id = equilibration_id(sqlite, job)) statement.bind(":equilibration_id", *id);
@@ -135,11 +140,11 @@ void must_be_finite(const Lease& lease, const Sample& sample) {
   const auto finite = [](const std::optional<double>& value) {
     return !value || std::isfinite(*value);
   };
-  const bool sound = std::isfinite(sample.tau) && std::isfinite(sample.time) &&
-                     finite(sample.temperature) && finite(sample.gamma_ratio) &&
-                     finite(sample.collision_rate) && finite(sample.pressure) &&
-                     finite(sample.a2) && finite(sample.a3) && finite(sample.a4) &&
-                     finite(sample.a5) && finite(sample.a6);
+  const bool sound =
+      std::isfinite(sample.tau) && std::isfinite(sample.time) && finite(sample.temperature) &&
+      finite(sample.gamma_ratio) && finite(sample.collision_rate) && finite(sample.pressure) &&
+      finite(sample.a2) && finite(sample.a3) && finite(sample.a4) && finite(sample.a5) &&
+      finite(sample.a6) && finite(sample.correlation_trace) && finite(sample.largest_cluster);
   if (!sound)
     throw Damage("job " + std::to_string(lease.job_id) + ": the sample at tau = " +
                  std::to_string(sample.tau) + " holds a value that is not finite");
@@ -163,7 +168,8 @@ void must_agree(SQLite::Database& sqlite, const Lease& lease, const Sample& agai
 void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Sample>& samples) {
   SQLite::Statement statement(sqlite, R"(
     INSERT INTO samples VALUES (:job_id, :tau, :time, :temperature, :gamma_ratio,
-                                :collision_rate, :pressure, :a2, :a3, :a4, :a5, :a6)
+                                :collision_rate, :pressure, :a2, :a3, :a4, :a5, :a6,
+                                :correlation_trace, :largest_cluster)
     ON CONFLICT DO NOTHING)");
   for (const Sample& sample : samples) {
     must_be_finite(lease, sample);
@@ -180,7 +186,51 @@ void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Samp
     bind(statement, ":a4", sample.a4);
     bind(statement, ":a5", sample.a5);
     bind(statement, ":a6", sample.a6);
+    bind(statement, ":correlation_trace", sample.correlation_trace);
+    bind(statement, ":largest_cluster", sample.largest_cluster);
     if (statement.exec() == 0) must_agree(sqlite, lease, sample);
+  }
+}
+
+// Profiles that are there already are kept: the samples beside them say whether the gas is the
+// same, and the last digits of a transform may differ between two libraries.
+void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Profile>& profiles) {
+  SQLite::Statement statement(sqlite,
+                              "INSERT INTO profiles VALUES (?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
+  for (const Profile& profile : profiles) {
+    if (profile.x.size() != profile.value.size())
+      throw std::logic_error("the profile " + profile.name + " has not as many values as places");
+    for (std::size_t i = 0; i < profile.x.size(); ++i) {
+      if (!std::isfinite(profile.value[i]))
+        throw Damage("job " + std::to_string(lease.job_id) + ": the profile " + profile.name +
+                     " at tau = " + std::to_string(profile.tau) +
+                     " holds a value that is not finite");
+      statement.reset();
+      statement.bind(1, lease.job_id);
+      statement.bind(2, profile.name);
+      statement.bind(3, profile.tau);
+      statement.bind(4, profile.x[i]);
+      statement.bind(5, profile.value[i]);
+      statement.exec();
+    }
+  }
+}
+
+void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Field>& fields) {
+  static_assert(std::endian::native == std::endian::little, "the store holds little-endian reals");
+  SQLite::Statement statement(
+      sqlite, "INSERT INTO fields VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
+  for (const Field& field : fields) {
+    statement.reset();
+    statement.bind(1, lease.job_id);
+    statement.bind(2, field.name);
+    statement.bind(3, field.tau);
+    statement.bind(4, field.cells);
+    statement.bind(5, field.components);
+    statement.bind(6, field.box);
+    statement.bindNoCopy(7, field.values.data(),
+                         static_cast<int>(field.values.size() * sizeof(double)));
+    statement.exec();
   }
 }
 
@@ -225,6 +275,8 @@ class Entry {
   void write(Database& database) const {
     must_hold(database, lease_);
     insert(database.sqlite(), lease_, commit_.samples);
+    insert(database.sqlite(), lease_, commit_.profiles);
+    insert(database.sqlite(), lease_, commit_.fields);
     if (commit_.checkpoint) replace(database.sqlite(), lease_, *commit_.checkpoint, sum_);
     report(database.sqlite(), lease_, commit_.progress);
   }

@@ -59,8 +59,30 @@ struct Sample {
   std::optional<double> collision_rate = {};  // omega [per particle and time], same interval
   std::optional<double> pressure = {};        // [E(0) sigma^-d], same interval
   std::optional<double> a2 = {}, a3 = {}, a4 = {}, a5 = {}, a6 = {};  // Laguerre coefficients
+  std::optional<double> correlation_trace = {};  // Tr G^+(0) [E(0)/m], where profiles are taken
+  std::optional<double> largest_cluster = {};    // part of the particles, where profiles are taken
 
   bool operator==(const Sample&) const = default;
+};
+
+// A curve at the tau of a sample. Names, x and units: 002-profiles.sql. Values are finite.
+struct Profile {
+  std::string name;
+  double tau = 0;
+  std::vector<double> x = {}, value = {};  // x increases
+
+  bool operator==(const Profile&) const = default;
+};
+
+// The gas in cells^d cells at the tau of a sample. Names, order of values and units:
+// 002-profiles.sql.
+struct Field {
+  std::string name;
+  double tau = 0;
+  int cells = 0;  // along each axis
+  int components = 1;
+  double box = 0;                   // side [sigma]
+  std::vector<double> values = {};  // NaN where a cell has none
 };
 
 struct Results {
@@ -126,10 +148,12 @@ struct Claim {
   double cpu_seconds = 0;                        // spent on it before
 };
 
-// What a worker has to say at once, written in one transaction: the samples before the
+// What a worker has to say at once, written in one transaction: what was measured before the
 // checkpoint and the checkpoint, so that the store never knows one without the other.
 struct Commit {
   std::vector<Sample> samples = {};
+  std::vector<Profile> profiles = {};
+  std::vector<Field> fields = {};
   std::optional<Checkpoint> checkpoint = {};  // replaces the job's older one
   Progress progress = {};
 };
@@ -198,6 +222,9 @@ class Reader {
   std::vector<Sample> samples(std::int64_t job_id) const;  // by tau
   // The job's last sample with sample.tau <= tau: what a resumed job goes on from.
   std::optional<Sample> last_sample(std::int64_t job_id, double tau) const;
+  // A job's profiles of this name, by tau. Averages over realizations: the view mean_profiles.
+  std::vector<Profile> profiles(std::int64_t job_id, const std::string& name) const;
+  std::optional<Field> field(std::int64_t job_id, const std::string& name, double tau) const;
   std::optional<Results> results(std::int64_t job_id) const;
 
   std::vector<CheckpointInfo> checkpoints() const;  // one a job at most, by job_id
@@ -242,8 +269,9 @@ class Store : public Reader {
   // Still alive, and so far. Throws LeaseLost like everything below.
   void progress(const Lease& lease, const Progress& progress);
 
-  // Samples that are there already are kept as they are; if time or temperature came out
-  // different, Damage. A checkpoint sets the job's attempts back to 0.
+  // Samples, profiles and fields that are there already are kept as they are; if the time or
+  // temperature of a sample came out different, Damage. A checkpoint sets the job's attempts back
+  // to 0.
   void commit(const Lease& lease, const Commit& commit);
 
   // The last commit of a job, its results (cooling only), and its end. tau_max: what the worker

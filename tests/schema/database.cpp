@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "fixture.hpp"
+#include "schema/embedded.hpp"
 
 using namespace haff::schema;
 
@@ -42,7 +43,7 @@ TEST_CASE("a new store is marked as one") {
   Store::create(folder / "a.db");
   SQLite::Database sqlite = plain(folder / "a.db");
   CHECK(sqlite.execAndGet("PRAGMA application_id").getInt() == application_id);
-  CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 1);
+  CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 2);
   CHECK(sqlite.execAndGet("PRAGMA journal_mode").getString() == "wal");
 }
 
@@ -54,7 +55,7 @@ TEST_CASE("every table is strict") {
             .execAndGet("SELECT count(*) FROM pragma_table_list WHERE type = 'table' AND "
                         "name NOT LIKE 'sqlite_%' AND NOT strict")
             .getInt() == 0);
-  CHECK(sqlite.execAndGet("SELECT count(*) FROM pragma_table_list WHERE strict").getInt() == 6);
+  CHECK(sqlite.execAndGet("SELECT count(*) FROM pragma_table_list WHERE strict").getInt() == 8);
 }
 
 TEST_CASE("the statuses of the store are those of the program, in order") {
@@ -144,7 +145,7 @@ TEST_CASE("a store of a newer program is refused") {
   plain(path).exec("PRAGMA user_version = 7");
   const std::string message = path.string() +
                               ": was written by a newer program (store version 7, this one knows "
-                              "1); update campaign";
+                              "2); update campaign";
   CHECK(refusal([&] { Store::create(path); }) == message);
   CHECK(refusal([&] { Store::open(path); }) == message);
   CHECK(refusal([&] { Reader{path}; }) == message);
@@ -161,6 +162,30 @@ TEST_CASE("migration runs the scripts a store has not seen, once") {
   migrate(sqlite, "a.db", scripts);
   CHECK(sqlite.execAndGet("SELECT group_concat(x || '-' || y) FROM a").getString() == "1-5,2-5");
   CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 2);
+}
+
+TEST_CASE("a store of the first version is brought forward with its rows") {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.db";
+  const Job job = equilibration_of(cooling());
+  {
+    SQLite::Database sqlite = plain(path);
+    migrate(sqlite, path, std::span(&embedded()[0].text, 1));
+    REQUIRE(sqlite.execAndGet("PRAGMA user_version").getInt() == 1);
+    sqlite.exec(R"(
+      INSERT INTO jobs (identity, kind, d, e, n, particles, seed, equilibrate, sample_every,
+                        precision, effects, observables, tau_max, checkpoint_every, created)
+      VALUES (')" +
+                identity(job) + R"(', 'equilibration', 3, 1, 0.4, 1000,
+              1, 50, 10, 'double', '{}', '["laguerre","temperature"]', 50, 10, 'then');
+      INSERT INTO samples VALUES (1, 0, 0, 0.5, NULL, NULL, NULL, 0.1, 0.1, 0.1, 0.1, 0.1))");
+  }
+  Store store = Store::open(path);
+  CHECK(store.find(job) == 1);
+  REQUIRE(store.samples(1).size() == 1);
+  CHECK(store.samples(1)[0].temperature == 0.5);
+  CHECK_FALSE(store.samples(1)[0].largest_cluster);
+  CHECK(store.add(plan({cooling()})) == std::vector{Outcome::unchanged, Outcome::added});
 }
 
 TEST_CASE("a migration that fails changes nothing") {
@@ -188,7 +213,7 @@ TEST_CASE("SQLite refuses writes through a reader's connection") {
     }
   }
   CHECK(Reader(folder / "a.db").jobs().size() == 2);
-  CHECK(reader.sqlite().execAndGet("PRAGMA user_version").getInt() == 1);
+  CHECK(reader.sqlite().execAndGet("PRAGMA user_version").getInt() == 2);
 }
 
 TEST_CASE("readers see a store that a killed writer left with its log") {

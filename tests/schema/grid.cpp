@@ -183,16 +183,18 @@ TEST_CASE("an unknown key is named with the nearest known one") {
                   "g.json: /sample_evry: unknown key; did you mean \"sample_every\"?");
   check_complaint(R"({"grids": [{"e": 0.8}, {"seed": 1}]})",
                   "g.json: /grids/1/seed: unknown key; did you mean \"seeds\"?");
-  check_complaint(with("density", "1"),
-                  "g.json: /density: unknown key; expected one of \"N\", \"checkpoint_every\", "
-                  "\"e\", \"equilibrate\", \"grids\", \"n\", \"name\", \"observables\", "
-                  "\"sample_every\", \"seeds\", \"tau_max\"");
+  check_complaint(
+      with("density", "1"),
+      "g.json: /density: unknown key; expected one of \"N\", \"checkpoint_every\", "
+      "\"e\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", \"observables\", "
+      "\"profiles_every\", \"sample_every\", \"seeds\", \"tau_max\"");
   check_complaint(R"({"E": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 1})",
                   "g.json: /E: unknown key; did you mean \"e\"?");
-  check_complaint(with("a/b~c", "1"),
-                  "g.json: /a~1b~0c: unknown key; expected one of \"N\", \"checkpoint_every\", "
-                  "\"e\", \"equilibrate\", \"grids\", \"n\", \"name\", \"observables\", "
-                  "\"sample_every\", \"seeds\", \"tau_max\"");
+  check_complaint(
+      with("a/b~c", "1"),
+      "g.json: /a~1b~0c: unknown key; expected one of \"N\", \"checkpoint_every\", "
+      "\"e\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", \"observables\", "
+      "\"profiles_every\", \"sample_every\", \"seeds\", \"tau_max\"");
 }
 
 TEST_CASE("a missing key is named") {
@@ -311,7 +313,8 @@ TEST_CASE("a value of the wrong type or out of range is shown with what was expe
       "g.json: /observables/0: \"laguere\" is not accepted; did you mean \"laguerre\"?");
   check_complaint(with("observables", "[\"pressure\"]"),
                   "g.json: /observables/0: \"pressure\" is not accepted; expected one of "
-                  "\"temperature\", \"laguerre\"");
+                  "\"temperature\", \"laguerre\", \"distribution\", \"correlations\", "
+                  "\"structure\", \"clusters\", \"fields\"");
   check_complaint(with("observables", "[3]"),
                   "g.json: /observables/0: 3 is not accepted; expected the name of an observable");
 }
@@ -381,4 +384,37 @@ TEST_CASE("samples must be at least a collision apart and within the run") {
   check_complaint(
       with("sample_every", "[1, 100]"),
       "g.json: /sample_every/1: 100 is longer than the run; expected at most tau_max = 90");
+}
+
+TEST_CASE("profiles and fields have their times where they are asked for") {
+  const auto only = [](const std::string& text) { return parse(text).grids.at(0); };
+  const SubGrid plain = only(with("profiles_every", "20"));
+  CHECK_FALSE(plain.profiles_every);
+  CHECK(plain.fields_at.empty());
+  CHECK(only(with("observables", "\"distribution\"")).profiles_every == 10.0);
+  const SubGrid full = only(
+      with("observables", R"(["fields", "clusters"], "profiles_every": 2, "fields_at": [60, 20])"));
+  CHECK(full.profiles_every == 2.0);
+  CHECK(full.fields_at == std::vector{20.0, 60.0});
+}
+
+TEST_CASE("profiles and fields belong to samples within the run") {
+  check_complaint(
+      with("observables", R"("structure", "profiles_every": 5, "sample_every": [1, 2])"),
+      "g.json: /profiles_every: 5 falls between samples; expected a multiple of sample_every = 2");
+  CHECK(complaint(
+            with("observables", R"("structure", "profiles_every": 0.3, "sample_every": 0.1)")) ==
+        "no complaint");
+  check_complaint(with("observables", R"("structure", "profiles_every": 100)"),
+                  "g.json: /profiles_every: 100 is beyond the run; expected at most tau_max = 90");
+  check_complaint(with("observables", R"("fields", "fields_at": [60, 95])"),
+                  "g.json: /fields_at/1: 95 is beyond the run; expected at most tau_max = 90");
+  check_complaint(
+      with("observables", "\"fields\""),
+      "g.json: has no \"fields_at\", and lists fields among its observables; expected "
+      "when fields are taken [collisions per particle], a multiple of sample_every or a "
+      "list of them");
+  check_complaint(with("observables", R"("fields", "fields_at": -1)"),
+                  "g.json: /fields_at: -1 is not accepted; expected when fields are taken "
+                  "[collisions per particle], a multiple of sample_every or a list of them");
 }

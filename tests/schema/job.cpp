@@ -33,6 +33,18 @@ TEST_CASE("every part of the physics makes another job") {
   for (const Job& other : others) CHECK(identity(other) != identity(job));
 }
 
+TEST_CASE("profiles and fields are physics of the jobs that take them") {
+  Job job = cooling();
+  job.profiles_every = 10;
+  job.fields_at = {20, 60.5};
+  CHECK(identity(job) ==
+        R"({"d":3,"e":0.8,"effects":{},"equilibrate":50,"fields_at":[20,60.5],"kind":"cooling",)"
+        R"("n":0.4,"observables":["laguerre","temperature"],"particles":1000,)"
+        R"("precision":"double","profiles_every":10,"sample_every":1,"seed":1})");
+  CHECK(fields_at_in(fields_at_text(job.fields_at)) == job.fields_at);
+  CHECK(identity(equilibration_of(job)) == identity(equilibration_of(cooling())));
+}
+
 TEST_CASE("the order of observables and the sign of zero are no physics") {
   Job one = cooling(0.0), other = cooling(-0.0);
   one.observables = {"temperature", "laguerre"};

@@ -2,17 +2,40 @@
 // not care where they come from.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
+#include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/cooling.hpp"
+#include "analysis/correlations.hpp"
 #include "analysis/energy_equation.hpp"
 #include "analysis/enskog_boltzmann.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {
+
+// Normal numbers: splitmix64 and Box-Muller.
+class Gaussian {
+ public:
+  explicit Gaussian(std::uint64_t seed) : state_(seed) {}
+  double operator()() {
+    return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform());
+  }
+
+ private:
+  double uniform() {
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (static_cast<double>((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
+  }
+
+  std::uint64_t state_;
+};
 
 // A gas whose energy obeys the energy equation, and whose a_2 leaves the Gaussian as Enskog and
 // Boltzmann have it and returns with the correlations; errors as those of N particles.
@@ -31,52 +54,124 @@ class SyntheticGas {
     double before = 1;
     for (std::size_t k = 0; k < tau.size(); ++k) {
       const double correlated = 1 - theory[k].gamma_ratio;
-      drift += noise * gaussian() * correlated;
+      drift += noise * gaussian_() * correlated;
       const double energy = theory[k].energy * std::exp(drift);
       schema::Sample sample{.tau = tau[k], .time = tau[k] / 5, .temperature = energy * 2 / 3};
       if (k > 0) {
         sample.gamma_ratio =
-            analysis::gamma_ratio(before, energy, job_.sample_every, job_.e) + noise * gaussian();
+            analysis::gamma_ratio(before, energy, job_.sample_every, job_.e) + noise * gaussian_();
       }
       before = energy;
       const double a2 = analysis::boltzmann_a2(tau[k], job_.e) * std::exp(-3 * correlated);
-      sample.a2 = a2 + 0.73 * noise * gaussian();
-      sample.a3 = 0.35 * a2 + 0.68 * noise * gaussian();
-      sample.a4 = -0.1 * a2 + 0.64 * noise * gaussian();
+      sample.a2 = a2 + 0.73 * noise * gaussian_();
+      sample.a3 = 0.35 * a2 + 0.68 * noise * gaussian_();
+      sample.a4 = -0.1 * a2 + 0.64 * noise * gaussian_();
+      if (job_.profiles_every && std::fmod(tau[k], *job_.profiles_every) == 0) {
+        sample.correlation_trace = analysis::correlation_trace({.e = job_.e, .n = job_.n}, tau[k]) *
+                                   (1 + noise * gaussian_());
+        sample.largest_cluster = std::min(1.0, 1e-4 * std::exp(0.05 * tau[k]));
+      }
       all.push_back(sample);
     }
     return all;
   }
 
  private:
-  // splitmix64 and Box-Muller.
-  double uniform() {
-    std::uint64_t z = (random_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (static_cast<double>((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
+  schema::Job job_;
+  double tau_max_;
+  Gaussian gaussian_{job_.seed * 1000003 + static_cast<std::uint64_t>(job_.e * 1e6)};
+};
+
+// What is seen of such a gas where profiles are taken: incompressible theory, with errors.
+class SyntheticProfiles {
+ public:
+  SyntheticProfiles(const schema::Job& job, double tau_max) : job_(job), tau_max_(tau_max) {}
+
+  std::vector<schema::Profile> profiles() {
+    std::vector<schema::Profile> all;
+    if (!job_.profiles_every) return all;
+    for (double tau = 0; tau <= tau_max_; tau += *job_.profiles_every) {
+      all.push_back(rho(tau));
+      all.push_back(correlation("G_parallel", tau));
+      all.push_back(correlation("G_perpendicular", tau));
+      all.push_back(structure(tau));
+    }
+    return all;
   }
-  double gaussian() {
-    return std::sqrt(-2 * std::log(uniform())) * std::cos(6.283185307179586 * uniform());
+
+  // A shear wave along x with random flow around it.
+  std::vector<schema::Field> fields() {
+    std::vector<schema::Field> all;
+    for (const double tau : job_.fields_at) {
+      constexpr int cells = 16;
+      const double v0 = std::sqrt(2 * analysis::haff_temperature(tau, job_.e));
+      schema::Field u{
+          .name = "velocity", .tau = tau, .cells = cells, .components = 3, .box = box()};
+      schema::Field n{.name = "density", .tau = tau, .cells = cells, .box = box()};
+      schema::Field T{.name = "temperature", .tau = tau, .cells = cells, .box = box()};
+      for (int i = 0; i < cells; ++i)
+        for (int jk = 0; jk < cells * cells; ++jk) {
+          const double wave = std::sin(2 * std::numbers::pi * i / cells);
+          for (const double mean : {0.0, v0 * wave, 0.0})
+            u.values.push_back(mean + 0.2 * v0 * gaussian_());
+          n.values.push_back(job_.n * (1 + 0.05 * gaussian_()));
+          T.values.push_back(0.5 * v0 * v0 * (1 + 0.1 * gaussian_()));
+        }
+      all.insert(all.end(), {u, n, T});
+    }
+    return all;
+  }
+
+ private:
+  double box() const { return std::cbrt(job_.particles / job_.n); }
+
+  schema::Profile rho(double tau) {
+    schema::Profile profile{.name = "rho", .tau = tau};
+    const double a2 = analysis::boltzmann_a2(tau, job_.e);
+    for (int i = 0; i < 50; ++i) {
+      const double c = 0.05 + 0.1 * i, c2 = c * c;
+      const double expected = std::exp(-c2) * (1 + a2 * (0.5 * c2 * c2 - 2.5 * c2 + 15.0 / 8));
+      const double count = std::max(1.0, job_.particles * expected * c2 * 0.1);
+      profile.x.push_back(c);
+      profile.value.push_back(std::max(0.0, expected * (1 + gaussian_() / std::sqrt(count))));
+    }
+    return profile;
+  }
+
+  schema::Profile correlation(const std::string& name, double tau) {
+    schema::Profile profile{.name = name, .tau = tau};
+    const double noise = analysis::haff_temperature(tau, job_.e) * 1e-4;
+    for (double r = 1.5; r <= box() / 2; r += 1) {
+      const auto theory = analysis::velocity_correlation({.e = job_.e, .n = job_.n}, r, tau,
+                                                         analysis::Fluid::incompressible);
+      profile.x.push_back(r);
+      profile.value.push_back((name == "G_parallel" ? theory.parallel : theory.perpendicular) +
+                              noise * gaussian_());
+    }
+    return profile;
+  }
+
+  schema::Profile structure(double tau) {
+    schema::Profile profile{.name = "S", .tau = tau};
+    for (int i = 1; i < 20; ++i) {
+      const double k = i * 2 * std::numbers::pi / box();
+      profile.x.push_back(k);
+      profile.value.push_back((0.05 + 0.01 * tau * std::exp(-k * k)) * (1 + 0.05 * gaussian_()));
+    }
+    return profile;
   }
 
   schema::Job job_;
   double tau_max_;
-  std::uint64_t random_ = job_.seed * 1000003 + static_cast<std::uint64_t>(job_.e * 1e6);
+  Gaussian gaussian_{job_.seed * 7919 + 1};
 };
 
-// Adds finished realizations of one gas, seeds 1 ... K.
-inline void add_finished(schema::Store& store, double e, double n, std::uint32_t particles,
-                         int seeds, double tau_max, double sample_every = 1) {
+// Adds finished realizations of a gas, seeds 1 ... K in place of the job's own.
+inline void add_finished(schema::Store& store, schema::Job job, int seeds, double tau_max) {
   const schema::Owner owner{.host = "here", .boot_id = "boot", .pid = 1, .started = 1};
   std::vector<schema::Planned> plan;
   for (int seed = 1; seed <= seeds; ++seed) {
-    schema::Job job{.e = e,
-                    .n = n,
-                    .particles = particles,
-                    .seed = static_cast<std::uint64_t>(seed),
-                    .sample_every = sample_every,
-                    .observables = {"laguerre", "temperature"}};
+    job.seed = static_cast<std::uint64_t>(seed);
     plan.push_back({.job = schema::equilibration_of(job), .tau_max = job.equilibrate});
     plan.push_back({.job = job, .tau_max = tau_max});
   }
@@ -87,6 +182,9 @@ inline void add_finished(schema::Store& store, double e, double n, std::uint32_t
     std::optional<schema::Results> results;
     if (claim->job.kind == schema::Kind::cooling) {
       last.samples = SyntheticGas(claim->job, claim->tau_max).samples();
+      SyntheticProfiles space(claim->job, claim->tau_max);
+      last.profiles = space.profiles();
+      last.fields = space.fields();
       std::vector<double> tau, temperature;
       for (const auto& sample : last.samples) {
         tau.push_back(sample.tau);
@@ -96,6 +194,32 @@ inline void add_finished(schema::Store& store, double e, double n, std::uint32_t
     }
     store.finish(claim->lease, last, results, claim->tau_max);
   }
+}
+
+inline void add_finished(schema::Store& store, double e, double n, std::uint32_t particles,
+                         int seeds, double tau_max, double sample_every = 1) {
+  add_finished(store,
+               {.e = e,
+                .n = n,
+                .particles = particles,
+                .sample_every = sample_every,
+                .observables = {"laguerre", "temperature"}},
+               seeds, tau_max);
+}
+
+// The same with everything that can be observed.
+inline void add_finished_with_profiles(schema::Store& store, double e, double n,
+                                       std::uint32_t particles, int seeds, double tau_max,
+                                       double profiles_every, std::vector<double> fields_at) {
+  add_finished(store,
+               {.e = e,
+                .n = n,
+                .particles = particles,
+                .observables = {"clusters", "correlations", "distribution", "fields", "laguerre",
+                                "structure", "temperature"},
+                .profiles_every = profiles_every,
+                .fields_at = std::move(fields_at)},
+               seeds, tau_max);
 }
 
 }  // namespace haff::campaign
