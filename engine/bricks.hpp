@@ -69,8 +69,11 @@ class Bricks {
 
   Bricks(const Box& box, std::uint32_t particles);
 
-  // Cells of this size find every contact with the nearest image; smaller boxes cannot have them.
+  // Smaller boxes cannot have cells of this size, four along an axis.
   static bool fits(const Box& box) { return box.side >= 4 * smallest_cell; }
+  // With six, particles of neighbouring cells are less than half a box apart: no doubt about the
+  // nearest image.
+  bool tell_images_apart() const { return cells_ >= 6; }
 
   void clear();
   Cell locate(const Vector& position) const;  // of a wrapped position

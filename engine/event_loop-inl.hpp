@@ -49,7 +49,7 @@ class EventLoop {
       else if (gas_.particles[event.partner].changes == event.partner_changes)
         collide(p, event.partner);
       else
-        predict(p);
+        look_again(p);
     }
     gas_.clock.now = now_;
     gas_.clock.collisions = collisions_;
@@ -64,6 +64,7 @@ class EventLoop {
   void collide(std::uint32_t p, std::uint32_t q) {
     physics_.collide(gas_.particles[p], gas_.particles[q], now_, gas_.box, gas_.clock.tally);
     ++collisions_;
+    ++gas_.events.collisions;
     const auto [first, second] =
         search_.around_both(p, gas_.calendar[p].cell, q, gas_.calendar[q].cell);
     gas_.calendar[p].contact_time = never;
@@ -73,9 +74,15 @@ class EventLoop {
   }
 
   void cross(std::uint32_t p) {
+    ++gas_.events.crossings;
     Event& event = gas_.calendar[p];
     event.cell = gas_.bricks.cross(p, event.cell, event.face);
     update(p, search_.beyond(p, event.cell, event.face, now_));
+  }
+
+  void look_again(std::uint32_t p) {
+    ++gas_.events.stale;
+    predict(p);
   }
 
   void predict(std::uint32_t p) {

@@ -24,6 +24,7 @@ struct Gas {
   Bricks bricks;
   Calendar calendar;
   Clock clock;
+  Events events;
 };
 
 // Cells and an empty calendar for a gas that has just been synchronized.

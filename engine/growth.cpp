@@ -43,6 +43,8 @@ struct GrowingSpheres {
 };
 
 using Loop = HWY_NAMESPACE::EventLoop<PlainSearch<GrowingSpheres>, GrowingSpheres>;
+using NearImageLoop =
+    HWY_NAMESPACE::EventLoop<PlainSearch<GrowingSpheres, NearImages>, GrowingSpheres>;
 using ImageLoop = HWY_NAMESPACE::EventLoop<PlainSearch<GrowingSpheres, Everybody>, GrowingSpheres>;
 
 State random_points(std::uint32_t count, const Box& box, std::uint64_t seed) {
@@ -82,10 +84,12 @@ std::vector<Vector> grown_positions(std::uint32_t count, const Box& box, std::ui
     cool(gas);
     prepare(gas);
     const std::int64_t stop = next_synchronization(gas.clock.collisions, count);
-    if (Bricks::fits(box))
-      grow<Loop>(gas, {diameter}, stop);
-    else
+    if (!Bricks::fits(box))
       grow<ImageLoop>(gas, {diameter}, stop);
+    else if (!gas.bricks.tell_images_apart())
+      grow<NearImageLoop>(gas, {diameter}, stop);
+    else
+      grow<Loop>(gas, {diameter}, stop);
     const double growth = growth_rate * gas.clock.now;
     const bool full_grown = gas.clock.collisions < stop;  // stopped by time
     if (!full_grown && growth < least_growth)

@@ -49,14 +49,29 @@ struct Near {
   }
 };
 
-// Candidates in a box so small that a particle can meet two images of another: everybody, in each
-// of the 27 boxes around the nearest image.
+// The 27 boxes around the nearest image.
+template <class Visit>
+void visit_images(std::uint32_t q, const Visit& visit) {
+  for (int image = 0; image < 27; ++image)
+    visit(q, Vector{image % 3 - 1.0, image / 3 % 3 - 1.0, image / 9 - 1.0});
+}
+
+// Candidates where two neighbouring cells are half the box: who is in the wanted cells, as each of
+// its images. Two particles on opposite faces of such cells are half a box apart, and then which
+// image is the nearest is a matter of rounding.
+struct NearImages {
+  template <std::size_t count, class Visit>
+  static void visit(const Gas& gas, const Bricks::Wanted<count>& wanted, const Visit& visit) {
+    Near::visit(gas, wanted, [&](std::uint32_t q, const Vector&) { visit_images(q, visit); });
+  }
+};
+
+// Candidates in a box so small that a particle can meet two images of another: everybody, as each
+// of its images.
 struct Everybody {
   template <std::size_t count, class Visit>
   static void visit(const Gas& gas, const Bricks::Wanted<count>&, const Visit& visit) {
-    for (std::uint32_t q = 0; q < gas.particles.size(); ++q)
-      for (int image = 0; image < 27; ++image)
-        visit(q, Vector{image % 3 - 1.0, image / 3 % 3 - 1.0, image / 9 - 1.0});
+    for (std::uint32_t q = 0; q < gas.particles.size(); ++q) visit_images(q, visit);
   }
 };
 

@@ -48,6 +48,8 @@ EventLoops<InelasticSpheres> loops_of() {
 EventLoops<InelasticSpheres> choose(const Gas& gas, Prediction prediction) {
   using Physics = InelasticSpheres;
   if (!Bricks::fits(gas.box)) return loops_of<Course<PlainSearch<Physics, Everybody>, Physics>>();
+  if (!gas.bricks.tell_images_apart())
+    return loops_of<Course<PlainSearch<Physics, NearImages>, Physics>>();
   if (prediction == Prediction::scalar) return loops_of<Course<PlainSearch<Physics>, Physics>>();
   if (gas.particles.size() < worth_prefetching) return loops_of<Course<SimdSearch, Physics>>();
   return loops_of<Course<SimdSearch, Physics, true>>();
@@ -159,6 +161,10 @@ Tally Simulation::take_tally() {
 State Simulation::state() const {
   if (!synchronized()) throw std::logic_error("a state exists only at a synchronization");
   return to_state(self_->gas.particles, self_->gas.clock, self_->gas.box);
+}
+
+Events Simulation::events() const {
+  return self_->gas.events;
 }
 
 std::size_t Simulation::memory() const {

@@ -25,6 +25,13 @@ struct Model {
 // Which implementation looks for contacts. All give the same bits.
 enum class Prediction { simd, scalar };
 
+// What happened, by kind. Speed is the price of these; the trajectory is made by collisions alone.
+struct Events {
+  std::int64_t collisions = 0;
+  std::int64_t crossings = 0;  // a particle entered another cell
+  std::int64_t stale = 0;      // the expected partner had collided meanwhile: looked again
+};
+
 // The physics has broken: overlap, NaN, time running backwards. The message says where.
 struct Breakdown : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -65,6 +72,7 @@ class Simulation {
   // The state, only at a synchronization (throws std::logic_error elsewhere).
   State state() const;
 
+  Events events() const;       // since the simulation was made
   std::size_t memory() const;  // bytes held
 
  private:

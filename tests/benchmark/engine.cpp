@@ -2,8 +2,8 @@
 //
 //   engine_benchmark --N 4000 --n 0.4 --e 1 --warmup 20 --tau 20 --json
 //
-// Prints the rate (synchronizations included), memory and a hash of the final state: two builds
-// that print the same hash have computed the same trajectory.
+// Prints the rate (synchronizations included), events by kind, memory and a hash of the final
+// state: two builds that print the same hash have computed the same trajectory.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -69,6 +69,8 @@ int main(int argc, char** argv) {
   gas.run_to(engine::collisions_at(tau, particles));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
 
+  const engine::Events events = gas.events();
+  const auto collisions = static_cast<double>(events.collisions);
   const nlohmann::ordered_json result{
       {"N", particles},
       {"n", n},
@@ -77,7 +79,9 @@ int main(int argc, char** argv) {
       {"tau", tau},
       {"simd", scalar ? "none" : engine::simd_target()},
       {"seconds", seconds.count()},
-      {"collisions_per_second", static_cast<double>(gas.collisions()) / seconds.count()},
+      {"collisions_per_second", collisions / seconds.count()},
+      {"crossings_per_collision", static_cast<double>(events.crossings) / collisions},
+      {"stale_per_collision", static_cast<double>(events.stale) / collisions},
       {"bytes_per_particle", static_cast<double>(gas.memory()) / particles},
       {"state_hash", state_hash(gas)}};
   if (json) {
