@@ -7,9 +7,11 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "analysis/cooling.hpp"
+#include "analysis/correlations.hpp"
 #include "analysis/energy_equation.hpp"
 #include "analysis/enskog_boltzmann.hpp"
 #include "analysis/moments.hpp"
@@ -17,6 +19,7 @@
 #include "campaign/figure.hpp"
 #include "campaign/fits.hpp"
 #include "campaign/published.hpp"
+#include "campaign/text_table.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -30,6 +33,14 @@ constexpr double plateau_from = 5;         // a_2 is near its deepest then
 constexpr double plateau_until = 30;       // and turns back at e = 0.90
 constexpr std::size_t return_window = 5;   // samples that the returning a_2 is smoothed over
 constexpr double returned = 0.5;           // of its deepest: on the way back to zero
+
+constexpr double correlations_at = 50;  // tau of figure 9
+constexpr double nearest_pair = 4;      // sigma: nearer, cells of one sigma smooth what is measured
+constexpr double farthest_pair = 20;    // sigma: farther, there is little but noise
+constexpr double correlation_tolerance = 0.10;  // linear theory; of the root mean square
+constexpr double collapse_tolerance = 0.10;     // likewise
+constexpr double clustered = 0.01;              // of the particles in the largest cluster
+constexpr std::size_t long_waves = 4;           // shells of wave vectors
 
 constexpr const char* paper = "Kawahara and Nakanishi";
 constexpr double base_restitution = 0.90;  // of the paper's a_l
@@ -243,6 +254,134 @@ void add_ordering(const MeanSeries& series, std::vector<Comparison>& table) {
                                        plateau_from, plateau_until, a2, a3, a4)});
 }
 
+// How far the measured correlations are from theory, in root mean squares over the pairs' range.
+void add_correlations(const MeanSeries& series, std::vector<Comparison>& table) {
+  using analysis::VelocityCorrelation;
+  struct Part {
+    const char* name;
+    const char* symbol;
+    double VelocityCorrelation::*value;
+  };
+  for (const Part& part : {Part{"G_parallel", "G∥", &VelocityCorrelation::parallel},
+                           Part{"G_perpendicular", "G⊥", &VelocityCorrelation::perpendicular}}) {
+    const MeanProfile* profile = series.profile(part.name, correlations_at);
+    if (profile == nullptr || profile->tau <= 0) continue;
+    double difference = 0, scale = 0;
+    for (std::size_t i = 0; i < profile->x.size(); ++i) {
+      if (profile->x[i] < nearest_pair || profile->x[i] > farthest_pair) continue;
+      const double theory =
+          analysis::velocity_correlation({.e = series.e, .n = series.n}, profile->x[i],
+                                         profile->tau, analysis::Fluid::incompressible).*
+          part.value;
+      difference += std::pow(profile->mean.value[i] - theory, 2);
+      scale += theory * theory;
+    }
+    if (scale == 0) continue;
+    const double deviation = std::sqrt(difference / scale);
+    table.push_back({.claim = "correlations",
+                     .quantity = fmt::format("{} at τ = {:g}: root mean square difference",
+                                             part.symbol, profile->tau),
+                     .e = series.e,
+                     .n = series.n,
+                     .value = deviation,
+                     .reference = 0,
+                     .source = "incompressible theory",
+                     .criterion = percent(correlation_tolerance),
+                     .holds = deviation <= correlation_tolerance,
+                     .note = fmt::format("{:g} σ ≤ r ≤ {:g} σ, N = {}", nearest_pair, farthest_pair,
+                                         count_text(series.particles))});
+  }
+}
+
+// A curve at x, linear between its points; nothing outside.
+std::optional<double> at(const Curve& curve, double x) {
+  const auto above = std::ranges::upper_bound(curve.x, x);
+  if (above == curve.x.begin() || above == curve.x.end()) return std::nullopt;
+  const auto i = static_cast<std::size_t>(above - curve.x.begin());
+  const double share = (x - curve.x[i - 1]) / (curve.x[i] - curve.x[i - 1]);
+  return curve.y[i - 1] + share * (curve.y[i] - curve.y[i - 1]);
+}
+
+// The spread of the scaled curves of figure 10 about their mean, over their common range.
+void add_collapse(const MeanSeries& series, std::vector<Comparison>& table) {
+  for (const char* name : {"G_parallel", "G_perpendicular"}) {
+    const auto curves = scaled_correlations(series, name);
+    if (curves.size() < 2) continue;
+    constexpr double step = 0.1;  // in r / (sigma sqrt(tau))
+    double spread = 0, scale = 0, from = Comparison::none, until = 0;
+    for (double x = nearest_pair / std::sqrt(scaling_from); x < farthest_pair; x += step) {
+      std::vector<double> values;
+      for (const Curve& curve : curves) {
+        if (const auto y = at(curve, x)) values.push_back(*y);
+      }
+      if (values.size() < curves.size()) continue;
+      const auto mean = analysis::estimate(values);
+      // The spread of single curves, not of their mean.
+      spread += std::pow(mean.standard_error, 2) * static_cast<double>(values.size());
+      scale += mean.mean * mean.mean;
+      if (!(from <= x)) from = x;
+      until = x;
+    }
+    if (scale == 0) continue;
+    const double deviation = std::sqrt(spread / scale);
+    table.push_back(
+        {.claim = "collapse",
+         .quantity =
+             fmt::format("{} scaled: spread between {} τ",
+                         std::string_view(name) == "G_parallel" ? "G∥" : "G⊥", curves.size()),
+         .e = series.e,
+         .n = series.n,
+         .value = deviation,
+         .reference = 0,
+         .source = paper,
+         .criterion = percent(collapse_tolerance),
+         .holds = deviation <= collapse_tolerance,
+         .note = fmt::format("{:g} ≤ τ ≤ {:g}, {:.1f} ≤ r/(σ√τ) ≤ {:.1f}, N = {}", scaling_from,
+                             scaling_until, from, until, count_text(series.particles))});
+  }
+}
+
+// When clusters appear: measured beside tau_c, not judged.
+void add_onset(const MeanSeries& series, std::vector<Comparison>& table) {
+  const auto tau_c = mean_tau_c(series);
+  std::vector<double> onsets;
+  for (const Realization& run : series.runs) {
+    const auto found =
+        std::ranges::find_if(run.largest_cluster, [](double part) { return part >= clustered; });
+    if (found == run.largest_cluster.end()) continue;
+    onsets.push_back(run.tau[static_cast<std::size_t>(found - run.largest_cluster.begin())]);
+  }
+  if (!onsets.empty()) {
+    const auto onset = analysis::estimate(onsets);
+    table.push_back(
+        {.claim = "clusters",
+         .quantity = fmt::format("τ when the largest cluster holds {}", percent(clustered)),
+         .e = series.e,
+         .n = series.n,
+         .value = onset.mean,
+         .error = onset.standard_error,
+         .source = "measured",
+         .note = tau_c ? fmt::format("{:.2f} τ_c", onset.mean / tau_c->tau_c) : std::string()});
+  }
+  for (const MeanProfile& profile : series.profiles) {
+    if (profile.name != "S" || profile.x.size() < long_waves) continue;
+    const std::vector<double> waves(profile.mean.value.begin(),
+                                    profile.mean.value.begin() + long_waves);
+    if (analysis::estimate(waves).mean < 1) continue;
+    table.push_back(
+        {.claim = "structure",
+         .quantity = "τ when S(k) of the longest waves exceeds 1",
+         .e = series.e,
+         .n = series.n,
+         .value = profile.tau,
+         .source = "measured",
+         .note = fmt::format(
+             "mean of k ≤ {:.3g}/σ{}", profile.x[long_waves - 1],
+             tau_c ? fmt::format("; {:.2f} τ_c", profile.tau / tau_c->tau_c) : std::string())});
+    return;
+  }
+}
+
 // A field of a table: 17 digits, nothing for what does not exist; text in quotes.
 std::string field(double value) {
   return std::isfinite(value) ? fmt::format("{:.17g}", value) : "";
@@ -274,6 +413,12 @@ std::vector<Comparison> agreement(const Averages& averages) {
     add_a2_return(series, table);
     add_ordering(series, table);
   }
+  const auto correlated = choose_profiles(averages, base_density, "G_parallel");
+  if (!correlated.empty()) {
+    add_correlations(nearest(correlated, correlations_restitution), table);
+    add_collapse(nearest(correlated, correlations_restitution), table);
+  }
+  for (const MeanSeries& series : restitutions) add_onset(series, table);
   add_late_decay(averages, table);
   return table;
 }

@@ -65,6 +65,52 @@ std::map<schema::Row, MeanSeries> read_means(const schema::Reader& store) {
   return all;
 }
 
+// Adds the mean profiles of each series.
+void read_profiles(const schema::Reader& store, std::map<schema::Row, MeanSeries>& all) {
+  schema::Query rows = store.query(
+      fmt::format("SELECT {}, name, tau, realizations, x, value, value_se FROM mean_profiles"
+                  " WHERE {}",
+                  key_columns, plain_gas));
+  while (const auto row = rows.next()) {
+    const auto& r = *row;
+    const auto found = all.find(key_of(r));
+    if (found == all.end()) continue;
+    auto& profiles = found->second.profiles;
+    const auto& name = std::get<std::string>(r[keys]);
+    const double tau = real(r[keys + 1]);
+    if (profiles.empty() || profiles.back().name != name || profiles.back().tau != tau) {
+      profiles.push_back({.name = name, .tau = tau, .realizations = integer(r[keys + 2])});
+    }
+    profiles.back().x.push_back(real(r[keys + 3]));
+    profiles.back().mean.value.push_back(real(r[keys + 4]));
+    profiles.back().mean.error.push_back(real(r[keys + 5]));
+  }
+}
+
+// The velocity field nearest to the paper's, e = 0.80 at tau = 60, of the largest system.
+std::optional<VelocityField> read_velocity_field(const schema::Reader& store) {
+  schema::Query rows = store.query(
+      fmt::format("SELECT e, n, particles, seed, job_id, fields.tau, coalesce(code_version, '')"
+                  " FROM fields JOIN jobs USING (job_id)"
+                  " WHERE name = 'velocity' AND status = 'done' AND n = 0.4 AND e < 1 AND {}"
+                  " ORDER BY abs(e - 0.8), abs(fields.tau - 60), particles DESC, seed LIMIT 1",
+                  plain_gas));
+  const auto row = rows.next();
+  if (!row) return std::nullopt;
+  const auto& r = *row;
+  const std::int64_t job_id = integer(r[4]);
+  const auto field = store.field(job_id, "velocity", real(r[5]));
+  const auto sample = store.last_sample(job_id, real(r[5]));
+  if (!field || !sample || !sample->temperature) return std::nullopt;
+  return VelocityField{.e = real(r[0]),
+                       .n = real(r[1]),
+                       .particles = integer(r[2]),
+                       .seed = static_cast<std::uint64_t>(integer(r[3])),
+                       .temperature = *sample->temperature,
+                       .code_version = std::get<std::string>(r[6]),
+                       .field = *field};
+}
+
 Realization read_realization(const schema::Reader& store, std::int64_t job_id, std::uint64_t seed) {
   Realization run{.job_id = job_id, .seed = seed};
   if (const auto results = store.results(job_id)) run.tau_c = results->tau_c;
@@ -72,6 +118,7 @@ Realization read_realization(const schema::Reader& store, std::int64_t job_id, s
     run.tau.push_back(sample.tau);
     run.temperature.push_back(sample.temperature.value_or(none));
     run.a2.push_back(sample.a2.value_or(none));
+    run.largest_cluster.push_back(sample.largest_cluster.value_or(none));
   }
   return run;
 }
@@ -128,10 +175,20 @@ std::int64_t MeanSeries::most_realizations() const {
   return *std::ranges::max_element(realizations);
 }
 
+const MeanProfile* MeanSeries::profile(const std::string& name, double at) const {
+  const MeanProfile* best = nullptr;
+  for (const MeanProfile& each : profiles) {
+    if (each.name != name) continue;
+    if (best == nullptr || std::abs(each.tau - at) < std::abs(best->tau - at)) best = &each;
+  }
+  return best;
+}
+
 Averages read_averages(const schema::Reader& store) {
   auto all = read_means(store);
+  read_profiles(store, all);
   read_runs(store, all);
-  Averages averages;
+  Averages averages{.series = {}, .velocity_field = read_velocity_field(store)};
   for (auto& entry : all) averages.series.push_back(std::move(entry.second));
   std::ranges::stable_sort(averages.series, {},
                            [](const MeanSeries& s) { return std::tuple(s.n, s.particles, s.e); });
@@ -166,6 +223,13 @@ std::vector<MeanSeries> choose_densities(const Averages& averages, double e,
   return best_of_each(
       averages.series, &MeanSeries::n,
       [&](const MeanSeries& s) { return s.e == e && measured(s.*observable); }, rank);
+}
+
+std::vector<MeanSeries> choose_profiles(const Averages& averages, double n,
+                                        const std::string& name) {
+  return best_of_each(
+      averages.series, &MeanSeries::e,
+      [&](const MeanSeries& s) { return s.n == n && s.profile(name, 0) != nullptr; }, rank);
 }
 
 const MeanSeries& nearest(const std::vector<MeanSeries>& series, double e) {

@@ -25,6 +25,16 @@ struct Realization {
   std::uint64_t seed = 0;
   std::optional<double> tau_c = {};
   std::vector<double> tau = {}, temperature = {}, a2 = {};  // NaN where not measured
+  std::vector<double> largest_cluster = {};                 // likewise
+};
+
+// A curve over realizations, names and units as in the table profiles.
+struct MeanProfile {
+  std::string name;
+  double tau = 0;
+  std::int64_t realizations = 0;
+  std::vector<double> x = {};
+  Means mean = {};
 };
 
 // The mean series of one gas. Units as in the table samples. All realizations are sampled at the
@@ -37,11 +47,25 @@ struct MeanSeries {
   std::vector<std::int64_t> realizations = {};  // that have this sample
   std::vector<double> tau = {};
   Means temperature = {}, gamma_ratio = {}, a2 = {}, a3 = {}, a4 = {};
+  std::vector<MeanProfile> profiles = {};    // by name, then tau
   std::vector<Realization> runs = {};        // by seed
   std::int64_t missing = 0;                  // realizations planned, but not done
   std::set<std::string> code_versions = {};  // of the programs that made them
 
   std::int64_t most_realizations() const;
+  // The profile of this name whose tau is nearest; null if there is none of the name.
+  const MeanProfile* profile(const std::string& name, double at) const;
+};
+
+// A velocity field of one realization, of the base case.
+struct VelocityField {
+  double e = 0;
+  double n = 0;
+  std::int64_t particles = 0;
+  std::uint64_t seed = 0;
+  double temperature = 0;  // of the gas at that tau [E(0)]
+  std::string code_version = {};
+  schema::Field field = {};
 };
 
 // tau_c of one gas, mean over the realizations that reached it.
@@ -57,7 +81,8 @@ struct MeanTauC {
 };
 
 struct Averages {
-  std::vector<MeanSeries> series;  // by n, particles, e
+  std::vector<MeanSeries> series;                    // by n, particles, e
+  std::optional<VelocityField> velocity_field = {};  // of figure 8, if the store has one
 };
 
 Averages read_averages(const schema::Reader& store);
@@ -72,6 +97,10 @@ std::vector<MeanSeries> choose_series(const Averages& averages, double n, Observ
 
 // Likewise at restitution e: for each density one series, by increasing n.
 std::vector<MeanSeries> choose_densities(const Averages& averages, double e, Observable observable);
+
+// Likewise those that have profiles of this name.
+std::vector<MeanSeries> choose_profiles(const Averages& averages, double n,
+                                        const std::string& name);
 
 // Of these, the one whose e is nearest to the wanted. There must be one.
 const MeanSeries& nearest(const std::vector<MeanSeries>& series, double e);

@@ -19,6 +19,10 @@ inline constexpr double base_density = 0.40;
 // e of the paper's figures over densities.
 inline constexpr double densities_restitution = 0.85;
 
+// e of the paper's velocity correlations, and tau between which they scale.
+inline constexpr double correlations_restitution = 0.80;
+inline constexpr double scaling_from = 20, scaling_until = 60;
+
 // e with at least two decimals, as the paper writes it: 0.80, 0.865.
 std::string restitution_text(double e);
 
@@ -45,13 +49,21 @@ Curve until(double end, Curve curve);
 // A measured curve's name, gas, realizations and colour, without points.
 Curve measured_curve(const MeanSeries& series);
 
+// The curves of figure 10, G_parallel or G_perpendicular: G tau^(d/2) m / T_0 against r / (sigma
+// sqrt(tau)) at each tau measured between scaling_from and scaling_until.
+std::vector<Curve> scaled_correlations(const MeanSeries& series, const std::string& name);
+
 // The plots; nothing if the averages lack their data.
 std::optional<Plot> figure_01(const Averages& averages);
 std::optional<Plot> figure_02(const Averages& averages);
+std::optional<Plot> figure_03(const Averages& averages);
 std::optional<Plot> figure_04(const Averages& averages);
 std::optional<Plot> figure_05(const Averages& averages);
 std::optional<Plot> figure_06(const Averages& averages);
 std::optional<Plot> figure_07(const Averages& averages);
+std::optional<Plot> figure_08(const Averages& averages);
+std::optional<Plot> figure_09(const Averages& averages);
+std::optional<Plot> figure_10(const Averages& averages);
 std::optional<Plot> figure_11(const Averages& averages);
 std::optional<Plot> figure_12(const Averages& averages);
 std::optional<Plot> figure_13(const Averages& averages);

@@ -36,16 +36,20 @@ constexpr std::string_view several_densities =
     R"({ "e": 0.85, "n": [0.05, 0.1, 0.2, 0.4, 0.5], "N": 32000, "seeds": 3, "tau_max": 90,
   "observables": ["temperature", "laguerre"] })";
 
+constexpr std::string_view distribution =
+    R"({ "e": 0.80, "n": 0.4, "N": 32000, "seeds": 3, "tau_max": 180, "profiles_every": 10,
+  "observables": ["temperature", "laguerre", "distribution"] })";
+constexpr std::string_view correlations =
+    R"({ "e": 0.80, "n": 0.4, "N": 256000, "seeds": 1, "tau_max": 60, "profiles_every": 10,
+  "fields_at": 60, "observables": ["temperature", "laguerre", "correlations", "fields"] })";
+
 constexpr std::array<Figure, 13> figures = {{
     {1, "temperature against Haff's law", figure_01, four_restitutions,
      "Haff's law, then a slower decay from τ_c on; late in the clustering stage roughly "
      "T ~ τ^−3 to τ^−4, strongly sample dependent."},
     {2, "duration of the homogeneous stage", figure_02, four_restitutions,
      "τ_c = 58, 82, 134, 309 for e = 0.80, 0.85, 0.90, 0.95."},
-    {3,
-     "velocity distribution",
-     nullptr,
-     {},
+    {3, "velocity distribution", figure_03, distribution,
      "close to exp(−c²) throughout the homogeneous stage."},
     {4, "Laguerre coefficients a₂, a₃, a₄", figure_04, one_restitution,
      "|a₂| > |a₃| > |a₄|; all return towards zero before τ_c (mean of 3)."},
@@ -55,20 +59,11 @@ constexpr std::array<Figure, 13> figures = {{
      "the return of a₂ is slower at low n (densities not listed in the text)."},
     {7, "a₂ against τ/τ_c", figure_07, four_restitutions,
      "small until τ_c, then large and different in every sample; smoothed over Δτ = 3, 3, 5, 7."},
-    {8,
-     "velocity field",
-     nullptr,
-     {},
+    {8, "velocity field", figure_08, correlations,
      "vortices much larger than a cell at τ = 60 (N = 1 000 000)."},
-    {9,
-     "velocity correlations",
-     nullptr,
-     {},
+    {9, "velocity correlations", figure_09, correlations,
      "G∥ and G⊥ at τ = 50 beside incompressible theory (N = 1 000 000)."},
-    {10,
-     "scaling of velocity correlations",
-     nullptr,
-     {},
+    {10, "scaling of velocity correlations", figure_10, correlations,
      "G τ^(d/2) against r/√τ falls on one curve for 20 ≤ τ ≤ 60 (N = 1 000 000)."},
     {11, "decay rate in the early stage", figure_11, four_restitutions,
      "γ < γ₀ from the start, by far more than Enskog–Boltzmann theory has it; b = 0.30 fits all "
@@ -151,7 +146,7 @@ int draw_figures(const schema::Reader& store, const FigureRequest& request, std:
                        .title = std::string(figure.title),
                        .caption = "not drawn: the store has no finished jobs for it",
                        .published = std::string(figure.published)});
-    const auto plot = figure.make ? figure.make(averages) : std::nullopt;
+    const auto plot = figure.make(averages);
     if (!plot) {
       fmt::print(report, "{}the store has no finished jobs for it; plan, for example\n{}\n", head,
                  figure.plan);

@@ -25,7 +25,7 @@ constexpr std::array<double, 4> full_frame = {0.15, 0.965, 0.215, 0.975};
 
 // The caption: characters of a line that fit the picture in any font likely to be there, lines that
 // have room below the axes, and their distance in fractions of the picture.
-constexpr std::size_t caption_width = 90;
+constexpr std::size_t caption_width = 90;  // of a picture 640 wide
 constexpr std::size_t caption_lines = 2;
 constexpr double caption_spacing = 0.031;
 
@@ -127,6 +127,20 @@ std::vector<std::size_t> shown_points(const Curve& curve, const Panel& panel) {
   return thinned;
 }
 
+// Rows x, y, dx, dy, length: an arrow with its middle at the point.
+std::string arrow_block(const Curve& curve, const Panel& panel, const std::string& name,
+                        const std::vector<std::size_t>& points) {
+  std::string block = name + " << END\n";
+  for (const std::size_t i : points) {
+    const auto [u, v] = curve.arrow[i];
+    if (!std::isfinite(u) || !std::isfinite(v)) continue;
+    const double dx = u * panel.arrow_scale, dy = v * panel.arrow_scale;
+    block += fmt::format("{:.8g} {:.8g} {:.8g} {:.8g} {:.8g}\n", curve.x[i] - dx / 2,
+                         curve.y[i] - dy / 2, dx, dy, std::hypot(u, v));
+  }
+  return block + "END\n";
+}
+
 // Rows x, y, y - error, y + error.
 std::string data_block(const Curve& curve, const Panel& panel, const std::string& name,
                        const std::vector<std::size_t>& points) {
@@ -164,6 +178,12 @@ std::string plot_element(const Curve& curve, const std::string& block) {
           ? fmt::format("points pt {} ps {} lw 1.2 {}", curve.symbol, curve.size, ink)
           : fmt::format("lines lw {} {} {}", curve.width, dashes(curve.look), ink);
   if (block.empty()) return fmt::format("keyentry with {} {}", style, title);
+  if (curve.look == Look::arrows) {
+    return fmt::format(
+        "{} using 1:2:3:4:5 with vectors head size 0.9,22,60 filled lw {} lc palette "
+        "notitle",
+        block, curve.width);
+  }
 
   std::string errors;
   if (has_errors(curve) && curve.look == Look::symbols) {
@@ -180,6 +200,27 @@ std::string plot_element(const Curve& curve, const std::string& block) {
 
 std::ptrdiff_t entries(const Panel& panel) {
   return std::ranges::count_if(panel.curves, [](const Curve& c) { return !c.legend.empty(); });
+}
+
+bool has_arrows(const Panel& panel) {
+  return std::ranges::any_of(panel.curves, [](const Curve& c) { return !c.arrow.empty(); });
+}
+
+// Tones from viridis, dark for the fast; the scale stands right of the axes.
+std::string tone_commands(const Panel& panel, const std::array<double, 4>& frame) {
+  std::string stops;
+  for (std::size_t i = 0; i < viridis.size(); ++i) {
+    stops += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i,
+                         shade(viridis.size() - 1 - i, viridis.size()));
+  }
+  return fmt::format("set palette defined ({})\nset cbrange [0:{:.8g}]\nset cbtics {:g}\n{}", stops,
+                     panel.tone_high, round_step(panel.tone_high / 5),
+                     panel.tone_label.empty()
+                         ? std::string("unset colorbox\n")
+                         : fmt::format("set colorbox user origin screen {}, screen {} size screen "
+                                       "0.012, screen {}\nset cblabel {}\n",
+                                       frame[1] + 0.012, frame[2], frame[3] - frame[2],
+                                       in_quotes(panel.tone_label)));
 }
 
 std::string axis_commands(const Axis& axis, char letter) {
@@ -249,17 +290,21 @@ std::string shade(std::size_t place, std::size_t of) {
 void write_table(const Plot& plot, const std::filesystem::path& file) {
   std::ofstream table(file);
   const Panel& first = plot.panels.front();
-  table << fmt::format("panel,curve,kind,e,n,particles,realizations,{0},{1},{1}_se\n",
-                       first.x.column, first.y.column);
+  const bool arrows = std::ranges::any_of(plot.panels, has_arrows);
+  table << fmt::format("panel,curve,kind,e,n,particles,realizations,{0},{1},{1}_se{2}\n",
+                       first.x.column, first.y.column, arrows ? ",u_x,u_y" : "");
   for (const Panel& panel : plot.panels) {
     for (const Curve& curve : panel.curves) {
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
         const bool counted = i < curve.realizations.size();
-        table << fmt::format("{},{},{},{},{},{},{},{},{},{}\n", panel.name, curve.name,
+        table << fmt::format("{},{},{},{},{},{},{},{},{},{}", panel.name, curve.name,
                              word(curve.source), field(curve.e), field(curve.n),
                              field(curve.particles),
                              counted ? fmt::format("{}", curve.realizations[i]) : "",
                              field(curve.x[i]), field(curve.y[i]), field(error_at(curve, i)));
+        if (arrows)
+          table << fmt::format(",{},{}", field(curve.arrow[i][0]), field(curve.arrow[i][1]));
+        table << '\n';
       }
     }
   }
@@ -284,7 +329,8 @@ void finish_svg(const Plot& plot, const std::filesystem::path& picture) {
 }
 
 std::string gnuplot_script(const Plot& plot, const std::filesystem::path& picture, Format format) {
-  const auto lines = wrapped(bound(plot.caption), caption_width);
+  const auto lines =
+      wrapped(bound(plot.caption), caption_width * static_cast<std::size_t>(plot.width) / 640);
   const auto spare = static_cast<double>(std::max(lines.size(), caption_lines) - caption_lines);
   std::string caption;
   double height = 0.07 + spare * caption_spacing;
@@ -312,13 +358,17 @@ std::string gnuplot_script(const Plot& plot, const std::filesystem::path& pictur
                                                               : "font ',12' spacing 1.15");
     panels += fmt::format("set tics font ',{}'\n", panel.small ? 10 : 12);
     panels += axis_commands(panel.x, 'x') + axis_commands(panel.y, 'y');
+    if (has_arrows(panel)) panels += tone_commands(panel, frame);
     for (const std::string& command : panel.commands) panels += command + "\n";
     std::string elements;
     for (const Curve& curve : panel.curves) {
       // gnuplot refuses to plot nothing.
       const auto points = shown_points(curve, panel);
       const std::string block = points.empty() ? "" : fmt::format("$curve{}", count++);
-      if (!points.empty()) blocks += data_block(curve, panel, block, points);
+      if (!points.empty()) {
+        blocks += curve.arrow.empty() ? data_block(curve, panel, block, points)
+                                      : arrow_block(curve, panel, block, points);
+      }
       elements += (elements.empty() ? "" : ", ") + plot_element(curve, block);
     }
     panels += "plot " + elements + "\nunset label\nunset arrow\nunset object\n";
@@ -327,8 +377,12 @@ std::string gnuplot_script(const Plot& plot, const std::filesystem::path& pictur
   // Arial is what viewers of SVG have or replace by its like (Liberation Sans on Debian).
   const std::string terminal =
       format == Format::svg
-          ? "svg size 640,480 enhanced font 'Arial,12' fontscale 1.3 background 'white'"
-          : "pngcairo size 1280,960 enhanced font 'Arial,12' fontscale 2 linewidth 2 pointscale 2";
+          ? fmt::format("svg size {},480 enhanced font 'Arial,12' fontscale 1.3 background 'white'",
+                        plot.width)
+          : fmt::format(
+                "pngcairo size {},960 enhanced font 'Arial,12' fontscale 2 linewidth 2 "
+                "pointscale 2",
+                2 * plot.width);
   return "set encoding utf8\nset terminal " + terminal + "\nset output " +
          in_quotes(picture.string()) + "\n" + blocks +
          "set border 15 lw 1\nset tics in scale 0.8,0.4\n"

@@ -12,7 +12,7 @@
 
 namespace haff::campaign {
 
-enum class Look { symbols, line, dashed, dotted };
+enum class Look { symbols, line, dashed, dotted, arrows };
 
 // Where a curve comes from, in the table's column `kind`.
 enum class Source { measured, theory, published };
@@ -27,8 +27,9 @@ struct Curve {
   std::optional<std::int64_t> particles = {};
 
   std::vector<double> x = {}, y = {};
-  std::vector<double> error = {};               // standard error of y, NaN or empty: none
-  std::vector<std::int64_t> realizations = {};  // averaged at each point; empty for theory
+  std::vector<double> error = {};                 // standard error of y, NaN or empty: none
+  std::vector<std::int64_t> realizations = {};    // averaged at each point; empty for theory
+  std::vector<std::array<double, 2>> arrow = {};  // at each point, for Look::arrows
 
   // In the picture. A curve without points is an entry of the legend only.
   Look look = Look::line;
@@ -55,13 +56,18 @@ struct Panel {
   std::string legend = "top right";        // its place, gnuplot's words; "none" for none
   std::vector<std::string> commands = {};  // of gnuplot, for what is no curve: labels, arrows
   bool small = false;                      // smaller type, for an inset
-  // Left, right, bottom, top of the axes as fractions of the picture, for an inset.
+  // Of arrows: length on the axes of an arrow of length 1, the length whose tone is the brightest,
+  // and what the scale of tones is labelled; empty for no scale.
+  double arrow_scale = 1, tone_high = 1;
+  std::string tone_label = {};
+  // Left, right, bottom, top of the axes as fractions of the picture, for an inset or a row.
   std::optional<std::array<double, 4>> frame = {};
 };
 
 struct Plot {
-  std::vector<Panel> panels;  // the first fills the picture, others are insets; same columns
+  std::vector<Panel> panels;  // one without a frame fills the picture; same columns
   std::string caption = {};   // plain text
+  int width = 640;            // of the picture [pixels], 480 high
 };
 
 // Least and largest y of what these curves draw, error bars included; {0, 1} if there is nothing.
@@ -85,7 +91,7 @@ std::string colour(std::size_t place, std::size_t of);
 std::string shade(std::size_t place, std::size_t of);
 
 // The table: a line of column names, then a row a point, reals with 17 digits, absent values
-// empty. Throws std::runtime_error if the file cannot be written.
+// empty. Arrows add two columns. Throws std::runtime_error if the file cannot be written.
 void write_table(const Plot& plot, const std::filesystem::path& file);
 
 enum class Format { svg, png };

@@ -24,6 +24,7 @@ schema::Store first_campaign(int seeds = 2) {
   add_finished(store, 0.8, 0.4, 2000, seeds, 90);
   add_finished(store, 0.9, 0.4, 2000, seeds, 180);
   add_finished(store, 0.85, 0.2, 2000, seeds, 40);
+  add_finished_with_profiles(store, 0.8, 0.4, 3000, 1, 60, 10, {60});
   return store;
 }
 
@@ -51,8 +52,9 @@ TEST_CASE("figures: a small campaign gives tables and pictures of all it can dra
   const TemporaryFolder folder;
   const auto drawn = draw(first_campaign(), folder.path() / "made" / "here");
   CHECK(drawn.code == 0);
-  for (const char* name : {"01", "02", "04", "05", "06", "07", "11", "12", "13"}) {
-    const auto file = folder.path() / "made" / "here" / (std::string("figure-") + name);
+  for (int id = 1; id <= 13; ++id) {
+    const std::string name = "figure-" + std::string(id < 10 ? "0" : "") + std::to_string(id);
+    const auto file = folder.path() / "made" / "here" / name;
     CHECK(contents(file.string() + ".csv").starts_with("panel,curve,kind,"));
     CHECK(contents(file.string() + ".svg").find("</svg>") != std::string::npos);
     CHECK(contents(file.string() + ".png").starts_with("\x89PNG"));
