@@ -138,7 +138,7 @@ class EventLoop {
       gas_.calendar.look_into(looked_at_ + stride, [&](std::uint32_t p) {
         const Event& event = gas_.calendar[p];
         if (event.face == Event::contact)
-          search_.prefetch_particles_around(event.cell);
+          search_.prefetch_particles_around(event.cell, gas_.calendar[event.partner].cell);
         else
           search_.prefetch_particles_beyond(event.cell, event.face);
       });

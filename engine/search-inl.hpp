@@ -60,9 +60,11 @@ class SimdSearch {
   }
   HWY_INLINE void prefetch_bricks_beyond(Cell cell, Face face) const {
     prefetch_bricks(gas_.bricks.beyond(cell, face));
+    __builtin_prefetch(&gas_.bricks.line(gas_.bricks.brick_of(cell)), 1, 2);
   }
-  HWY_INLINE void prefetch_particles_around(Cell cell) {
+  HWY_INLINE void prefetch_particles_around(Cell cell, Cell partner) {
     prefetch_particles(gas_.bricks.around(cell));
+    if (partner != cell) prefetch_bricks(gas_.bricks.around(partner));
   }
   HWY_INLINE void prefetch_particles_beyond(Cell cell, Face face) {
     prefetch_particles(gas_.bricks.beyond(cell, face));
