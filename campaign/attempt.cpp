@@ -10,7 +10,6 @@
 #include "campaign/checkpoint.hpp"
 #include "campaign/cpu_time.hpp"
 #include "campaign/job_text.hpp"
-#include "campaign/measurement.hpp"
 #include "campaign/restore.hpp"
 #include "campaign/signals.hpp"
 
@@ -56,6 +55,7 @@ void Attempt::begin(const engine::State& state) {
     return engine::collisions_at(sample.tau, job().particles) > state.collisions;
   });
   committed_ = samples_.size();
+  views_ = {};
   gas_.emplace(engine::Model{.restitution = job().e}, state);
   speed_from_ = gas_->collisions();
   speed_since_ = renewed_ = Clock::now();
@@ -74,15 +74,20 @@ bool Attempt::advance_to(std::int64_t collisions) {
 void Attempt::sample(double tau) {
   const auto previous =
       samples_.empty() ? std::nullopt : std::optional<schema::Sample>(samples_.back());
-  samples_.push_back(measure(*gas_, job(), tau, previous));
+  schema::Sample sample = measure(*gas_, job(), tau, previous);
+  const Views taken = view(*gas_, job(), sample);
+  samples_.push_back(sample);
+  views_.profiles.insert(views_.profiles.end(), taken.profiles.begin(), taken.profiles.end());
+  views_.fields.insert(views_.fields.end(), taken.fields.begin(), taken.fields.end());
 }
 
 void Attempt::commit(double tau) {
-  const std::vector<schema::Sample> fresh(
-      samples_.begin() + static_cast<std::ptrdiff_t>(committed_), samples_.end());
-  store_.commit(claim_.lease,
-                {.samples = fresh, .checkpoint = checkpoint(tau), .progress = progress(tau)});
+  schema::Commit now = uncommitted();
+  now.checkpoint = checkpoint(tau);
+  now.progress = progress(tau);
+  store_.commit(claim_.lease, now);
   committed_ = samples_.size();
+  views_ = {};
 }
 
 bool Attempt::is_asked_to_leave() const {
@@ -96,8 +101,7 @@ Ending Attempt::leave() {
 
 Ending Attempt::finish(std::optional<double> synchronization_tau,
                        const std::optional<schema::Results>& results) {
-  schema::Commit last;
-  last.samples.assign(samples_.begin() + static_cast<std::ptrdiff_t>(committed_), samples_.end());
+  schema::Commit last = uncommitted();
   if (synchronization_tau) last.checkpoint = checkpoint(*synchronization_tau);
   last.progress = progress(synchronization_tau.value_or(claim_.tau_max));
   store_.finish(claim_.lease, last, results, claim_.tau_max);
@@ -142,6 +146,12 @@ schema::Progress Attempt::progress(double tau) const {
   return {.tau = tau,
           .collisions = gas_->collisions(),
           .cpu_seconds = claim_.cpu_seconds + cpu_seconds() - cpu_at_start_};
+}
+
+schema::Commit Attempt::uncommitted() const {
+  return {.samples = {samples_.begin() + static_cast<std::ptrdiff_t>(committed_), samples_.end()},
+          .profiles = views_.profiles,
+          .fields = views_.fields};
 }
 
 schema::Checkpoint Attempt::checkpoint(double tau) const {

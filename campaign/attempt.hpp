@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/measurement.hpp"
 #include "campaign/report.hpp"
 #include "engine/simulation.hpp"
 #include "schema/store.hpp"
@@ -37,8 +38,8 @@ class Attempt {
   // False if asked to stop when there is no synchronization near at which to store the state.
   [[nodiscard]] bool advance_to(std::int64_t collisions);
 
-  void sample(double tau);
-  void commit(double tau);  // samples and state, at a synchronization
+  void sample(double tau);  // and the profiles and fields that go with it
+  void commit(double tau);  // what was measured and the state, at a synchronization
   bool is_asked_to_leave() const;
 
   Ending leave();
@@ -58,6 +59,7 @@ class Attempt {
   double tau() const;
   schema::Progress progress(double tau) const;
   schema::Checkpoint checkpoint(double tau) const;
+  schema::Commit uncommitted() const;
 
   schema::Store& store_;
   const schema::Claim& claim_;
@@ -65,6 +67,7 @@ class Attempt {
   std::optional<engine::Simulation> gas_;
   std::vector<schema::Sample> samples_;
   std::size_t committed_ = 0;  // of samples_, or in the store from an earlier attempt
+  Views views_;                // since the last commit
 
   double cpu_at_start_;
   Clock::time_point told_, renewed_, speed_since_;

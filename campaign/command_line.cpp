@@ -112,6 +112,21 @@ CLI::App* add_figures(CLI::App& app, FigureRequest& options) {
   return command;
 }
 
+CLI::App* add_export(CLI::App& app, ExportCommand& options) {
+  auto* command =
+      app.add_subcommand("export", "Print a job's last stored state as extended XYZ, for OVITO");
+  command->add_option("JOB", options.job_id, "The job_id, as in the table jobs")
+      ->type_name("NUMBER")
+      ->required();
+  command->footer(
+      examples(R"(  campaign query "SELECT job_id, kind, e, n, particles, seed, tau FROM jobs"
+  campaign export 3 > job-3.xyz     open it in OVITO: particles, box, velocities
+  campaign export 3 | gzip > job-3.xyz.gz
+
+What is stored is the newest checkpoint; its tau stands in the second line.)"));
+  return command;
+}
+
 CLI::App* add_verify(CLI::App& app) {
   auto* command =
       app.add_subcommand("verify", "Check the store: SQLite, checkpoints, physics, completeness");
@@ -175,12 +190,14 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   StatusCommand status;
   QueryCommand query;
   FigureRequest figures;
+  ExportCommand exported;
   WorkerCommand worker;
   const CLI::App* plan_command = add_plan(app, plan);
   const CLI::App* run_command = add_run(app, run);
   const CLI::App* status_command = add_status(app, status);
   const CLI::App* query_command = add_query(app, query);
   const CLI::App* figures_command = add_figures(app, figures);
+  const CLI::App* export_command = add_export(app, exported);
   const CLI::App* verify_command = add_verify(app);
   const CLI::App* retry_command = add_retry(app);
   const CLI::App* worker_command = add_worker(app, worker);
@@ -200,6 +217,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   if (status_command->parsed()) line.command = status;
   if (query_command->parsed()) line.command = query;
   if (figures_command->parsed()) line.command = figures;
+  if (export_command->parsed()) line.command = exported;
   if (verify_command->parsed()) line.command = VerifyCommand{};
   if (retry_command->parsed()) line.command = RetryCommand{};
   if (worker_command->parsed()) line.command = worker;

@@ -1,6 +1,7 @@
 // The command line: what was asked for, and with what.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,6 +21,9 @@ struct QueryCommand {
   std::string sql;
   Format format = Format::table;
 };
+struct ExportCommand {
+  std::int64_t job_id = 0;
+};
 struct VerifyCommand {};
 struct RetryCommand {};
 struct WorkerCommand {  // what `run` starts; not for people
@@ -27,7 +31,7 @@ struct WorkerCommand {  // what `run` starts; not for people
 };
 
 using Command = std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest,
-                             VerifyCommand, RetryCommand, WorkerCommand>;
+                             ExportCommand, VerifyCommand, RetryCommand, WorkerCommand>;
 
 struct CommandLine {
   std::filesystem::path store;

@@ -4,6 +4,7 @@
 
 #include "campaign/command_line.hpp"
 #include "campaign/exit_code.hpp"
+#include "campaign/export.hpp"
 #include "campaign/figures.hpp"
 #include "campaign/log.hpp"
 #include "campaign/plan.hpp"
@@ -32,6 +33,9 @@ struct Perform {
   }
   int operator()(const FigureRequest& request) const {
     return draw_figures(schema::Reader(line.store), request, std::cout);
+  }
+  int operator()(const ExportCommand& command) const {
+    return export_state(line.store, command.job_id, std::cout);
   }
   int operator()(const VerifyCommand&) const { return verify(line.store); }
   int operator()(const RetryCommand&) const { return retry(line.store); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "engine/simulation.hpp"
 #include "schema/store.hpp"
@@ -14,6 +15,16 @@ namespace haff::campaign {
 // does not exist (a rate at the start, a coefficient of a gas at rest) stays empty.
 schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double tau,
                        const std::optional<schema::Sample>& previous);
+
+// What the whole gas shows now, beside a sample.
+struct Views {
+  std::vector<schema::Profile> profiles;
+  std::vector<schema::Field> fields;
+};
+
+// The profiles and fields that the job takes with this sample, none at most tau. Fills those
+// columns of the sample that are taken with profiles.
+Views view(const engine::Simulation& gas, const schema::Job& job, schema::Sample& sample);
 
 // The end of the homogeneous stage, from all samples of a job.
 schema::Results results(const std::vector<schema::Sample>& samples, const schema::Job& job);

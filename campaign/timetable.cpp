@@ -1,5 +1,6 @@
 #include "campaign/timetable.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/simulation.hpp"
@@ -10,6 +11,11 @@ namespace {
 // k sample_every and tau_max are both rounded: what differs by less than this is the same place.
 // [relative]
 constexpr double rounding = 1e-12;
+
+// Samples at other tau are sample_every away.
+bool is_same(double tau, double other, double sample_every) {
+  return std::abs(tau - other) < 0.5 * sample_every;
+}
 
 std::int64_t whole(double x) {
   return static_cast<std::int64_t>(x);
@@ -23,6 +29,17 @@ std::int64_t sample_count(double sample_every, double tau_max) {
 
 double sample_tau(double sample_every, std::int64_t k) {
   return static_cast<double>(k) * sample_every;
+}
+
+bool has_profiles(const schema::Job& job, double tau) {
+  if (!job.profiles_every) return false;
+  const double k = std::round(tau / *job.profiles_every);
+  return is_same(tau, k * *job.profiles_every, job.sample_every);
+}
+
+bool has_fields(const schema::Job& job, double tau) {
+  return std::any_of(job.fields_at.begin(), job.fields_at.end(),
+                     [&](double at) { return is_same(tau, at, job.sample_every); });
 }
 
 double synchronization_tau(std::int64_t k) {

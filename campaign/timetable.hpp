@@ -19,6 +19,10 @@ std::int64_t sample_count(double sample_every, double tau_max);
 // tau of sample k, the same bits everywhere.
 double sample_tau(double sample_every, std::int64_t k);
 
+// Whether profiles, or fields, are taken with the sample at tau.
+bool has_profiles(const schema::Job& job, double tau);
+bool has_fields(const schema::Job& job, double tau);
+
 // tau of synchronization k.
 double synchronization_tau(std::int64_t k);
 

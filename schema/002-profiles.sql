@@ -2,7 +2,7 @@
 --
 --   profiles       curves of one variable: rho(c), G(r), S(k); one row a point
 --   mean_profiles  their averages over realizations
---   fields         the gas on a mesh of cells, as BLOBs (examples/README.md reads one in Python)
+--   fields         the gas on a mesh of cells, as BLOBs (README.md reads one in Python)
 --
 -- Units as in 001-store.sql. An observable that the job's `observables` do not list has no rows.
 

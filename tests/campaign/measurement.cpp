@@ -2,7 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "analysis/cooling.hpp"
 #include "analysis/moments.hpp"
@@ -90,6 +93,82 @@ TEST_CASE("measurement: temperature in true units however far the gas has cooled
   const auto sample = measure(gas, physics, 300, std::nullopt);
   const double scaled = analysis::moments(gas.velocities()).temperature;
   CHECK(*sample.temperature == scaled * std::exp2(-2 * gas.exponent()));
+}
+
+namespace {
+
+schema::Job job_with_views() {
+  schema::Job wide = job(0.8, 4000);
+  wide.observables = {"clusters", "correlations", "distribution",
+                      "fields",   "structure",    "temperature"};
+  wide.profiles_every = 10;
+  wide.fields_at = {20};
+  return wide;
+}
+
+std::vector<std::string> names(const Views& views) {
+  std::vector<std::string> all;
+  for (const auto& profile : views.profiles) all.push_back(profile.name);
+  for (const auto& field : views.fields) all.push_back(field.name);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("measurement: profiles and fields at their times, and no others") {
+  const auto physics = job_with_views();
+  const auto gas = ::gas(physics);
+  schema::Sample sample{.tau = 10};
+  using Names = std::vector<std::string>;
+  CHECK(names(view(gas, physics, sample)) == Names{"rho", "G_parallel", "G_perpendicular", "S"});
+  CHECK(sample.correlation_trace);
+  CHECK(sample.largest_cluster);
+  sample = {.tau = 20};
+  CHECK(names(view(gas, physics, sample)) ==
+        Names{"rho", "G_parallel", "G_perpendicular", "S", "density", "velocity", "temperature"});
+  sample = {.tau = 15};
+  CHECK(names(view(gas, physics, sample)).empty());
+  CHECK_FALSE(sample.correlation_trace);
+  CHECK_FALSE(sample.largest_cluster);
+}
+
+TEST_CASE("measurement: a profile that is not listed is not taken") {
+  auto physics = job_with_views();
+  physics.observables = {"clusters", "temperature"};
+  schema::Sample sample{.tau = 10};
+  CHECK(names(view(::gas(physics), physics, sample)).empty());
+  CHECK(sample.largest_cluster);
+  CHECK_FALSE(sample.correlation_trace);
+}
+
+TEST_CASE("measurement: fields in true units however far the gas has cooled") {
+  auto physics = job_with_views();
+  physics.e = 0.5;
+  physics.particles = 500;
+  physics.fields_at = {60};
+  physics.profiles_every = 60;
+  auto gas = ::gas(physics);
+  gas.run_to(engine::collisions_at(60, physics.particles));
+  REQUIRE(gas.exponent() != 0);
+  schema::Sample sample = measure(gas, physics, 60, std::nullopt);
+  const auto views = view(gas, physics, sample);
+  const auto named = [&](const char* name) {
+    return *std::find_if(views.fields.begin(), views.fields.end(),
+                         [&](const auto& field) { return field.name == name; });
+  };
+  // Energy of the flow and of what moves within the cells is that of the gas:
+  // d T = sum_r N_r (u^2 + d T_L (N_r - 1) / N_r) / N.
+  const auto density = named("density"), u = named("velocity"), T = named("temperature");
+  const double volume = std::pow(density.box / density.cells, 3);
+  double twice_energy = 0;
+  for (std::size_t c = 0; c < density.values.size(); ++c) {
+    const double number = density.values[c] * volume;
+    for (std::size_t a = 0; number > 0.5 && a < 3; ++a)
+      twice_energy += number * std::pow(u.values[3 * c + a], 2);
+    if (number > 1.5) twice_energy += 3 * T.values[c] * (number - 1);
+  }
+  CHECK(twice_energy / physics.particles ==
+        doctest::Approx(3 * *sample.temperature).epsilon(1e-12));
 }
 
 TEST_CASE("measurement: tau_c and its time between two samples") {

@@ -140,8 +140,15 @@ std::string rows(const Folder& folder) {
   };
   return text(
              "SELECT identity, samples.tau, time, temperature, gamma_ratio, collision_rate, "
-             "pressure, a2, a3, a4, a5, a6 FROM samples JOIN jobs USING (job_id) "
+             "pressure, a2, a3, a4, a5, a6, correlation_trace, largest_cluster FROM samples JOIN "
+             "jobs USING (job_id) "
              "ORDER BY identity, samples.tau") +
+         text(
+             "SELECT identity, name, profiles.tau, x, value FROM profiles JOIN jobs USING (job_id) "
+             "ORDER BY identity, name, profiles.tau, x") +
+         text(
+             "SELECT identity, name, fields.tau, cells, components, box, hex(data) "
+             "FROM fields JOIN jobs USING (job_id) ORDER BY identity, name, fields.tau") +
          text(
              "SELECT identity, results.* FROM jobs JOIN (SELECT job_id, tau_c, time_c FROM "
              "results) "
