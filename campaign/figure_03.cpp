@@ -15,7 +15,7 @@ namespace {
 
 constexpr double restitution = 0.80;
 constexpr std::array stages = {0.0, 0.5, 1.0, 1.5, 2.0, 3.0};  // tau / tau_c
-constexpr double fastest = 4.5;  // c beyond which noise is all there is
+constexpr double fastest = 4.2;  // c beyond which noise is all there is
 constexpr double rarest = 1e-7;  // rho
 
 Curve gaussian() {

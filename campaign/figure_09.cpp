@@ -13,6 +13,7 @@ namespace haff::campaign {
 namespace {
 
 constexpr double moment = 50;    // tau
+constexpr double unit = 1e-3;    // of G m / T_0 on the axis
 constexpr double farthest = 40;  // r [sigma] that is shown
 
 Curve measured(const MeanSeries& series, const MeanProfile& profile, double end) {
@@ -20,8 +21,8 @@ Curve measured(const MeanSeries& series, const MeanProfile& profile, double end)
   curve.name = profile.name;
   curve.x = profile.x;
   for (std::size_t i = 0; i < profile.x.size(); ++i) {
-    curve.y.push_back(profile.mean.value[i] / analysis::initial_temperature());
-    curve.error.push_back(profile.mean.error[i] / analysis::initial_temperature());
+    curve.y.push_back(profile.mean.value[i] / (unit * analysis::initial_temperature()));
+    curve.error.push_back(profile.mean.error[i] / (unit * analysis::initial_temperature()));
   }
   curve.realizations.assign(curve.x.size(), profile.realizations);
   curve.look = Look::symbols;
@@ -37,7 +38,7 @@ Curve theory(const MeanSeries& series, double tau, double end,
     const auto correlation = analysis::velocity_correlation({.e = series.e, .n = series.n}, r, tau,
                                                             analysis::Fluid::incompressible);
     curve.x.push_back(r);
-    curve.y.push_back(correlation.*part / analysis::initial_temperature());
+    curve.y.push_back(correlation.*part / (unit * analysis::initial_temperature()));
   }
   return curve;
 }
@@ -54,7 +55,7 @@ std::optional<Plot> figure_09(const Averages& averages) {
   const double end = std::min(farthest, parallel->x.back());
 
   Panel panel{.x = {.label = "{/:Italic r} / {/:Italic σ}", .column = "r", .low = 0, .high = end},
-              .y = {.label = "{/:Italic G m} / {/:Italic T}_0", .column = "G"}};
+              .y = {.label = "10^3 {/:Italic G m} / {/:Italic T}_0", .column = "G_times_1000"}};
   panel.curves.push_back(measured(series, *parallel, end));
   panel.curves.back().legend = "{/:Italic G}_{∥}";
   panel.curves.push_back(measured(series, *perpendicular, end));
