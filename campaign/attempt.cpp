@@ -10,8 +10,10 @@
 #include "campaign/checkpoint.hpp"
 #include "campaign/cpu_time.hpp"
 #include "campaign/job_text.hpp"
+#include "campaign/model.hpp"
 #include "campaign/restore.hpp"
 #include "campaign/signals.hpp"
+#include "engine/soundness.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -56,7 +58,7 @@ void Attempt::begin(const engine::State& state) {
   });
   committed_ = samples_.size();
   views_ = {};
-  gas_.emplace(engine::Model{.restitution = job().e}, state);
+  gas_.emplace(model_of(job()), state);
   speed_from_ = gas_->collisions();
   speed_since_ = renewed_ = Clock::now();
   tell();
@@ -82,10 +84,9 @@ void Attempt::sample(double tau) {
 }
 
 void Attempt::commit(double tau) {
-  schema::Commit now = uncommitted();
-  now.checkpoint = checkpoint(tau);
-  now.progress = progress(tau);
-  store_.commit(claim_.lease, now);
+  schema::Commit commit = news(tau);
+  commit.checkpoint = checkpoint(tau);
+  store_.commit(claim_.lease, commit);
   committed_ = samples_.size();
   views_ = {};
 }
@@ -101,11 +102,15 @@ Ending Attempt::leave() {
 
 Ending Attempt::finish(std::optional<double> synchronization_tau,
                        const std::optional<schema::Results>& results) {
-  schema::Commit last = uncommitted();
+  schema::Commit last = news(synchronization_tau.value_or(claim_.tau_max));
   if (synchronization_tau) last.checkpoint = checkpoint(*synchronization_tau);
-  last.progress = progress(synchronization_tau.value_or(claim_.tau_max));
   store_.finish(claim_.lease, last, results, claim_.tau_max);
   return Ending::finished;
+}
+
+Ending Attempt::collapse(const std::string& what) {
+  store_.collapse(claim_.lease, news(tau()), what);
+  return Ending::collapsed;
 }
 
 std::string Attempt::place() const {
@@ -148,10 +153,17 @@ schema::Progress Attempt::progress(double tau) const {
           .cpu_seconds = claim_.cpu_seconds + cpu_seconds() - cpu_at_start_};
 }
 
-schema::Commit Attempt::uncommitted() const {
+schema::Commit Attempt::news(double tau) const {
+  const engine::Invariants seen = gas_->invariants();
   return {.samples = {samples_.begin() + static_cast<std::ptrdiff_t>(committed_), samples_.end()},
           .profiles = views_.profiles,
-          .fields = views_.fields};
+          .fields = views_.fields,
+          .invariants = schema::Invariants{.largest_overlap = engine::largest_overlap(seen),
+                                           .past_events = seen.past_events,
+                                           .watchdog_trips = seen.watchdog_trips,
+                                           .energy_mismatch = seen.energy_mismatch,
+                                           .momentum_removed = seen.momentum_removed},
+          .progress = progress(tau)};
 }
 
 schema::Checkpoint Attempt::checkpoint(double tau) const {

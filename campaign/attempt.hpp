@@ -18,7 +18,7 @@
 namespace haff::campaign {
 
 // How an attempt can end, other than by an exception. `left`: asked to stop, given back.
-enum class Ending { finished, left };
+enum class Ending { finished, collapsed, left };
 
 class Attempt {
  public:
@@ -47,6 +47,9 @@ class Attempt {
   Ending finish(std::optional<double> synchronization_tau,
                 const std::optional<schema::Results>& results);
 
+  // The end of the job in inelastic collapse: its series up to here is kept.
+  Ending collapse(const std::string& what);
+
   // Where it is, for messages: "seed 3, tau 12.5, 100000 collisions".
   std::string place() const;
 
@@ -58,8 +61,9 @@ class Attempt {
   double collisions_per_second() const;
   double tau() const;
   schema::Progress progress(double tau) const;
+  // What the store does not have yet, but for the state.
+  schema::Commit news(double tau) const;
   schema::Checkpoint checkpoint(double tau) const;
-  schema::Commit uncommitted() const;
 
   schema::Store& store_;
   const schema::Claim& claim_;

@@ -15,14 +15,20 @@ static_assert(std::endian::native == std::endian::little,
               "checkpoints are little-endian: swap bytes here for this machine");
 
 constexpr std::string_view magic = "HAFFGAS\n";
-constexpr std::uint32_t version = 1;
+// Version 1 had no invariants but momentum_removed, and no memory.
+constexpr std::uint32_t version = 2;
 
-// The fields of a state by name. The structured binding counts them: a field added to State and
-// not here does not compile.
+// What laws of restitution remember is stored under these names, followed by their own.
+constexpr std::string_view memory_prefix = "memory.";
+
+// The fields of a state by name, but for its memory. The structured binding counts them: a field
+// added to State and not here does not compile.
 template <class State, class Visit>
 void for_each_field(State& state, Visit&& visit) {
-  auto& [box, id, position, velocity, exponent, collisions, time, tally, momentum_removed] = state;
+  auto& [box, id, position, velocity, exponent, collisions, time, tally, invariants, memory] =
+      state;
   auto& [dissipated, virial] = tally;
+  auto& [closest2, past_events, watchdog_trips, energy_mismatch, momentum_removed] = invariants;
   visit("box", box);
   visit("id", id);
   visit("position", position);
@@ -33,11 +39,22 @@ void for_each_field(State& state, Visit&& visit) {
   visit("dissipated", dissipated);
   visit("virial", virial);
   visit("momentum_removed", momentum_removed);
+  visit("closest2", closest2);
+  visit("past_events", past_events);
+  visit("watchdog_trips", watchdog_trips);
+  visit("energy_mismatch", energy_mismatch);
 }
+
+bool is_in_version_1(std::string_view name) {
+  return name != "closest2" && name != "past_events" && name != "watchdog_trips" &&
+         name != "energy_mismatch";
+}
+
+}  // namespace
 
 // Any change of one 8-byte word changes the result, whatever follows (each step is invertible);
 // any other change does with probability 1 - 2^-64.
-std::uint64_t checksum(std::span<const std::byte> bytes) {
+std::uint64_t checkpoint_checksum(std::span<const std::byte> bytes) {
   std::uint64_t sum = bytes.size();
   while (!bytes.empty()) {
     std::uint64_t word = 0;
@@ -49,6 +66,8 @@ std::uint64_t checksum(std::span<const std::byte> bytes) {
   }
   return sum;
 }
+
+namespace {
 
 template <class T>
 std::span<T> elements(T& value) {
@@ -108,6 +127,7 @@ class Reader {
   std::string_view get_text(std::size_t size) {
     return {reinterpret_cast<const char*>(take(size).data()), size};
   }
+  std::size_t left() const { return rest_.size(); }
   bool at_end() const { return rest_.empty(); }
 
  private:
@@ -128,6 +148,8 @@ std::vector<Stored> read_table(Reader& reader, std::uint32_t fields) {
     field.name = reader.get_text(reader.get<std::uint8_t>());
     field.element_size = reader.get<std::uint8_t>();
     field.count = reader.get<std::uint64_t>();
+    if (field.element_size == 0 || field.count > reader.left() / field.element_size)
+      throw DamagedCheckpoint("checkpoint is cut short");  // before the product overflows
     field.bytes = reader.take(field.count * field.element_size);
     table.push_back(field);
   }
@@ -145,10 +167,13 @@ template <class Field>
 void restore(const std::vector<Stored>& table, std::string_view name, Field& field) {
   for (const Stored& stored : table) {
     if (stored.name != name) continue;
+    const auto wrong = [&] {
+      return DamagedCheckpoint(fmt::format("checkpoint field '{}' has the wrong size", name));
+    };
+    if (stored.element_size != sizeof elements(field)[0]) throw wrong();
     resize(field, stored.count);
     const auto target = std::as_writable_bytes(elements(field));
-    if (stored.element_size != sizeof elements(field)[0] || stored.bytes.size() != target.size())
-      throw DamagedCheckpoint(fmt::format("checkpoint field '{}' has the wrong size", name));
+    if (stored.bytes.size() != target.size()) throw wrong();
     if (!target.empty()) std::memcpy(target.data(), stored.bytes.data(), target.size());
     return;
   }
@@ -161,17 +186,21 @@ std::vector<std::byte> encode(const engine::State& state) {
   Writer writer;
   std::uint32_t fields = 0;
   std::size_t size = 256;  // names and scalars
-  for_each_field(state, [&](std::string_view, const auto& field) {
+  const auto count = [&](std::string_view, const auto& field) {
     ++fields;
     size += elements(field).size_bytes();
-  });
+  };
+  for_each_field(state, count);
+  for (const auto& [name, values] : state.memory) count(name, values);
   writer.bytes.reserve(size);
   writer.put(magic);
   writer.put(version);
   writer.put(fields);
   for_each_field(state,
                  [&](std::string_view name, const auto& field) { writer.put_field(name, field); });
-  writer.put(checksum(writer.bytes));
+  for (const auto& [name, values] : state.memory)
+    writer.put_field(std::string(memory_prefix) + name, values);
+  writer.put(checkpoint_checksum(writer.bytes));
   return std::move(writer.bytes);
 }
 
@@ -183,16 +212,23 @@ engine::State decode(std::span<const std::byte> bytes) {
   Reader reader(content);
   if (reader.get_text(magic.size()) != magic)
     throw DamagedCheckpoint("checkpoint does not begin as one");
-  if (sum.get<std::uint64_t>() != checksum(content))
+  if (sum.get<std::uint64_t>() != checkpoint_checksum(content))
     throw DamagedCheckpoint("checkpoint fails its checksum");
-  if (const auto found = reader.get<std::uint32_t>(); found != version)
+  const auto found = reader.get<std::uint32_t>();
+  if (found < 1 || found > version)
     throw DamagedCheckpoint(
-        fmt::format("checkpoint is of version {}, this program reads {}", found, version));
+        fmt::format("checkpoint is of version {}, this program reads 1 to {}", found, version));
   const auto table = read_table(reader, reader.get<std::uint32_t>());
   if (!reader.at_end()) throw DamagedCheckpoint("checkpoint is longer than its fields");
 
   engine::State state;
-  for_each_field(state, [&](std::string_view name, auto& field) { restore(table, name, field); });
+  for_each_field(state, [&](std::string_view name, auto& field) {
+    if (found > 1 || is_in_version_1(name)) restore(table, name, field);
+  });
+  for (const Stored& stored : table)
+    if (stored.name.starts_with(memory_prefix))
+      restore(table, stored.name,
+              state.memory[std::string(stored.name.substr(memory_prefix.size()))]);
   return state;
 }
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -21,6 +22,9 @@ namespace haff::campaign {
 struct DamagedCheckpoint : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+// What stands at the end of a checkpoint with these bytes before it.
+std::uint64_t checkpoint_checksum(std::span<const std::byte> bytes);
 
 std::vector<std::byte> encode(const engine::State& state);
 

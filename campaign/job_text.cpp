@@ -6,7 +6,8 @@ namespace haff::campaign {
 
 std::string describe(const schema::Job& job) {
   const std::string gas = fmt::format("n={} N={} seed {}", job.n, job.particles, job.seed);
-  return job.kind == schema::Kind::cooling ? fmt::format("cooling e={} {}", job.e, gas)
+  const std::string effects = job.effects == "{}" ? "" : " " + job.effects;
+  return job.kind == schema::Kind::cooling ? fmt::format("cooling e={} {}{}", job.e, gas, effects)
                                            : "equilibration " + gas;
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "campaign/job_text.hpp"
-#include "campaign/soundness.hpp"
 #include "engine/simulation.hpp"
+#include "engine/soundness.hpp"
 
 namespace haff::campaign {
 namespace {

@@ -32,10 +32,27 @@ struct Picture {
   std::vector<schema::JobRow> jobs;
   std::vector<schema::RunningJob> running;
   std::vector<Series> series;
+  std::optional<schema::Invariants> worst;  // of all runs; nothing before the first
 };
 
+// The largest overlap, mismatch and momentum of all runs, and all counts together.
+std::optional<schema::Invariants> worst_invariants(const Reader& store) {
+  auto rows = store.query(
+      "SELECT max(largest_overlap), sum(past_events), sum(watchdog_trips), max(energy_mismatch), "
+      "max(momentum_removed) FROM invariants");
+  const auto row = rows.next().value();
+  const auto* overlap = std::get_if<double>(row.data());
+  if (!overlap) return std::nullopt;
+  return schema::Invariants{.largest_overlap = *overlap,
+                            .past_events = std::get<std::int64_t>(row[1]),
+                            .watchdog_trips = std::get<std::int64_t>(row[2]),
+                            .energy_mismatch = std::get<double>(row[3]),
+                            .momentum_removed = std::get<double>(row[4])};
+}
+
 Picture look(const Reader& store) {
-  return {store.path(), store.summary(), store.jobs(), store.running(), series_of(store)};
+  return {store.path(),    store.summary(),  store.jobs(),
+          store.running(), series_of(store), worst_invariants(store)};
 }
 
 double fraction_done(const schema::Summary& summary) {
@@ -118,6 +135,14 @@ std::string failures_text(const Picture& picture) {
   return text;
 }
 
+std::string invariants_text(const schema::Invariants& worst) {
+  return fmt::format(
+      "Physics: overlap at most {:.1e} sigma, {} events in the past, {} watchdog trips, energy "
+      "balanced to {:.1e}, momentum to {:.1e}\n",
+      worst.largest_overlap, worst.past_events, worst.watchdog_trips, worst.energy_mismatch,
+      worst.momentum_removed);
+}
+
 std::string next_text(const Picture& picture) {
   std::string text;
   for (const std::string& command : next_commands(picture))
@@ -133,6 +158,7 @@ void print_picture(const Picture& picture) {
   fmt::print("CPU time: {} spent, {} expected in all, {} of it to come\n\n",
              duration_text(summary.cpu_seconds), duration_text(summary.expected_cpu_seconds),
              duration_text(summary.remaining_cpu_seconds));
+  if (picture.worst) fmt::print("{}\n", invariants_text(*picture.worst));
   if (!picture.running.empty()) fmt::print("{}\n", running_table(picture.running));
   if (!picture.series.empty()) fmt::print("{}\n", series_table(picture.series));
   const std::string failures = failures_text(picture);
@@ -154,7 +180,8 @@ ordered_json physics_json(const schema::Job& job) {
           {"n", job.n},
           {"particles", job.particles},
           {"equilibrate", job.equilibrate},
-          {"sample_every", job.sample_every}};
+          {"sample_every", job.sample_every},
+          {"effects", ordered_json::parse(job.effects)}};
 }
 
 ordered_json running_json(const schema::RunningJob& job) {
@@ -191,6 +218,14 @@ ordered_json failure_json(const schema::JobRow& row) {
   return object;
 }
 
+ordered_json invariants_json(const schema::Invariants& worst) {
+  return {{"largest_overlap", worst.largest_overlap},
+          {"past_events", worst.past_events},
+          {"watchdog_trips", worst.watchdog_trips},
+          {"energy_mismatch", worst.energy_mismatch},
+          {"momentum_removed", worst.momentum_removed}};
+}
+
 ordered_json picture_json(const Picture& picture) {
   const schema::Summary& summary = picture.summary;
   ordered_json counts = ordered_json::object();
@@ -203,6 +238,7 @@ ordered_json picture_json(const Picture& picture) {
       {"cpu_seconds", summary.cpu_seconds},
       {"expected_cpu_seconds", summary.expected_cpu_seconds},
       {"remaining_cpu_seconds", summary.remaining_cpu_seconds},
+      {"invariants", picture.worst ? invariants_json(*picture.worst) : ordered_json(nullptr)},
       {"running", ordered_json::array()},
       {"series", ordered_json::array()},
       {"failures", ordered_json::array()},

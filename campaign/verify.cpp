@@ -18,6 +18,7 @@
 #include "campaign/text_table.hpp"
 #include "campaign/timetable.hpp"
 #include "engine/simulation.hpp"
+#include "engine/soundness.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -104,6 +105,32 @@ void check_energy(const engine::State& state, const JobRow& row, const std::vect
   }
 }
 
+// Events in the past come from rounding, if at all: fewer than one in so many collisions.
+constexpr double past_events_per_collision = 1e-6;
+
+// Periods may be so much longer than expected in gases of a few particles. The engine itself knows
+// how long each was.
+constexpr double slowest_period = 1000;
+
+void check_invariants(const Reader& store, const JobRow& row, Faults& faults) {
+  const auto seen = store.invariants(row.job_id);
+  if (!seen) return;  // not yet begun, or computed before they were counted
+  const double closest = 1 - seen->largest_overlap;
+  const auto wrong = engine::violation({.closest2 = closest * closest,
+                                        .past_events = seen->past_events,
+                                        .watchdog_trips = seen->watchdog_trips,
+                                        .energy_mismatch = seen->energy_mismatch,
+                                        .momentum_removed = seen->momentum_removed},
+                                       engine::allowed_overlap(row.job.n, slowest_period));
+  if (wrong) faults.push_back(*wrong);
+  const auto collisions = static_cast<double>(row.progress.collisions);
+  if (static_cast<double>(seen->past_events) > past_events_per_collision * collisions + 1)
+    faults.push_back(
+        fmt::format("{} events lay in the past when their turn came", seen->past_events));
+  if (row.status == schema::Status::done && seen->watchdog_trips >= engine::trips_of_a_collapse)
+    faults.push_back(fmt::format("done, but the watchdog tripped {} times", seen->watchdog_trips));
+}
+
 bool must_have_checkpoint(const JobRow& row) {
   return row.job.kind == schema::Kind::equilibration && row.status == schema::Status::done;
 }
@@ -160,6 +187,7 @@ Faults faults_of(const Reader& store, const JobRow& row) {
   } catch (const DamagedCheckpoint& damage) {
     faults.push_back(fmt::format("its checkpoint is damaged: {}", damage.what()));
   }
+  check_invariants(store, row, faults);
   const std::vector<Sample> samples = store.samples(row.job_id);
   check_order(samples, row, faults);
   if (row.job.kind == schema::Kind::equilibration) check_elastic(samples, row, faults);

@@ -17,6 +17,7 @@
 #include "campaign/signals.hpp"
 #include "campaign/version.hpp"
 #include "campaign/work_left.hpp"
+#include "engine/simulation.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {
@@ -31,8 +32,15 @@ std::string name_of(const schema::Claim& claim) {
   return fmt::format("job {} ({})", claim.lease.job_id, describe(claim.job));
 }
 
-Ending drive(Attempt& attempt) {
+// Inelastic collapse is not an error, it is where constant e ends.
+Ending drive(Attempt& attempt, const Reporter& reporter) try {
   return attempt.job().kind == schema::Kind::equilibration ? equilibrate(attempt) : cool(attempt);
+} catch (const engine::Collapse& collapse) {
+  const std::string what = fmt::format(
+      "{}; a law of \"restitution\" under \"effects\", \"threshold\" or \"tc\", goes on from there",
+      collapse.what());
+  reporter.send(LogReport{Level::warning, fmt::format("{}: {}", name_of(attempt.claim()), what)});
+  return attempt.collapse(what);
 }
 
 // What went wrong with the job, nothing if it is done or was left. Errors of the store are not
@@ -40,7 +48,7 @@ Ending drive(Attempt& attempt) {
 std::optional<std::string> error_of(Attempt& attempt, const Reporter& reporter) {
   std::string why;
   try {
-    if (drive(attempt) == Ending::finished)
+    if (drive(attempt, reporter) == Ending::finished)
       reporter.send(LogReport{Level::info, name_of(attempt.claim()) + " done"});
     return std::nullopt;
   } catch (const schema::Damage& damage) {

@@ -4,6 +4,22 @@
 // At contact, with unit vector n along the relative position and restitution e,
 //   v_a* = v_a - (1+e)/2 [n.(v_a - v_b)] n,   v_b* = v_b + the same.
 //
+// States that rounding has made slightly invalid are dealt with as in M. N. Bannerman, S. Strobl,
+// A. Formella, T. Poeschel, Comp. Part. Mech. 1, 191 (2014), arXiv:1211.6718. With the overlap
+// function f = r^2 - sigma^2, a pair's event is not a root of f but the first moment at which
+//   f <= 0 and df/dt < 0:
+// spheres that are to come closer are in contact or overlap. For a valid state that is the root.
+// An overlapping pair that approaches has its event at once, one that separates has none until it
+// has come apart: so an overlap never grows, no root is taken twice, none in the past, and a
+// collision, after which df/dt >= 0, always ends the event that caused it. What is left to decide:
+//   - df/dt = 2 r.v is known only to its rounding. Below `smallest_approach` it counts as zero.
+//     Otherwise a contact after which r.v should be 0 (e = 0, or grazing) would come again and
+//     again at the same instant, whenever rounding makes it -1e-17, and change nothing.
+//   - The image of the partner is the nearest one `now`: a contact across a face is found from
+//     either side.
+//   - No time is compared with another one's rounding: events are ordered by (time, ids) alone.
+// That the loop goes on is watched by counting (watchdog.hpp), not hoped for.
+//
 // The scalar functions here define the trajectory to the last bit; the SIMD search repeats their
 // operations one for one. They use + - * / sqrt and rounding to an integer only, all exact or
 // correctly rounded on every machine, and are exactly symmetric in a and b: swapping the two
@@ -14,11 +30,19 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/clock.hpp"
 #include "engine/particle.hpp"
 
 namespace haff::engine {
 
 inline constexpr double never = std::numeric_limits<double>::infinity();
+
+// r.v of a pair in contact is a sum of three products of numbers of order one, each known to
+// 2^-53: speeds in scaled units are below 10, so the sum is good to some 1e-15, a tenth of this. A
+// real approach as slow has one chance in 1e28 per collision. Were it larger, resting spheres would
+// sink into each other by it in a unit of time; smaller, and contacts at e = 0 repeat without end.
+// [sigma * scaled speed]
+inline constexpr double smallest_approach = 0x1p-46;
 
 inline double dot(const Vector& a, const Vector& b) {
   return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
@@ -62,33 +86,54 @@ struct Encounter {
   ++b.changes;
 }
 
-// Smooth spheres with a constant restitution coefficient.
-struct InelasticSpheres {
-  double restitution;  // e
-
-  // Time at which a and b touch, or never. Overlapping pairs that approach (rounding makes them, by
-  // some 1e-16) touch at once; pairs that separate do not touch at all.
-  double contact_time(const Encounter& pair) const {
+// Spheres of diameter sigma.
+struct HardSpheres {
+  // Time at which a and b touch, or never.
+  static double contact_time(const Encounter& pair) {
     const double approach = dot(pair.r, pair.v);
     const double gap = dot(pair.r, pair.r) - 1;
     const double discriminant = approach * approach - dot(pair.v, pair.v) * gap;
-    if (!(approach < 0 && discriminant >= 0)) return never;
+    if (!(approach < -smallest_approach && discriminant >= 0)) return never;
     // The root written so that it does not cancel when the pair is close.
     return pair.start + std::max(gap, 0.0) / (std::sqrt(discriminant) - approach);
   }
+};
+
+// What a law of restitution (laws.hpp) may know of a collision.
+struct Impact {
+  const Particle& a;
+  const Particle& b;
+  double a_time;  // when a and b last collided, unless their `changes` are 0
+  double b_time;
+  double now;
+  double speed2;  // of approach along the normal, squared, in scaled units
+};
+
+// Smooth spheres; the law says with which e two of them part.
+template <class Law>
+struct SmoothSpheres : HardSpheres {
+  explicit SmoothSpheres(const Law& restitution_law) : law(restitution_law) {}
 
   // Lets a and b collide `now`. Adds loss and virial, in the units of the scaled velocities.
-  [[gnu::always_inline]] void collide(Particle& a, Particle& b, double now, const Box& box,
-                                      Tally& tally) const {
+  // Returns r.v before, which is negative.
+  [[gnu::always_inline]] double collide(Particle& a, Particle& b, double now, const Box& box,
+                                        Clock& clock) const {
+    const double a_time = a.time;
+    const double b_time = b.time;
     advance(a, now);
     advance(b, now);
     const Encounter contact(a, b, now, box);
     const double approach = dot(contact.r, contact.v);
     const double distance2 = dot(contact.r, contact.r);
-    exchange(a, b, contact, 0.5 * (1 + restitution) * approach / distance2);
-    tally.virial -= 0.5 * (1 + restitution) * approach;
-    tally.dissipated += 0.25 * (1 - restitution * restitution) * approach * approach / distance2;
+    const double e = law({a, b, a_time, b_time, now, approach * approach / distance2});
+    exchange(a, b, contact, 0.5 * (1 + e) * approach / distance2);
+    clock.tally.virial -= 0.5 * (1 + e) * approach;
+    clock.tally.dissipated += 0.25 * (1 - e * e) * approach * approach / distance2;
+    clock.invariants.closest2 = std::min(clock.invariants.closest2, distance2);
+    return approach;
   }
+
+  const Law& law;
 };
 
 }  // namespace haff::engine

@@ -17,6 +17,7 @@
 #include <hwy/highway.h>
 
 #include "engine/search.hpp"
+#include "engine/watchdog.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
@@ -32,7 +33,7 @@ class EventLoop {
         now_(gas.clock.now),
         collisions_(gas.clock.collisions) {}
 
-  // Goes on until the given number of collisions in all, or until that time.
+  // Goes on until the given number of collisions in all, or until that time. Throws Collapse.
   void run(std::int64_t collisions, double end = never) {
     while (collisions_ < collisions) {
       const std::uint32_t p = gas_.calendar.next([this](std::uint32_t q) { return rank(q); });
@@ -43,7 +44,10 @@ class EventLoop {
         now_ = end;
         break;
       }
-      now_ = event.time;
+      if (event.time < now_) [[unlikely]]
+        ++gas_.clock.invariants.past_events;  // time does not run backwards
+      else
+        now_ = event.time;
       if (event.face != Event::contact)
         cross(p);
       else if (gas_.particles[event.partner].changes == event.partner_changes)
@@ -62,15 +66,25 @@ class EventLoop {
 
  private:
   void collide(std::uint32_t p, std::uint32_t q) {
-    physics_.collide(gas_.particles[p], gas_.particles[q], now_, gas_.box, gas_.clock.tally);
+    const double since = std::min(gas_.particles[p].time, gas_.particles[q].time);
+    const double approach =
+        physics_.collide(gas_.particles[p], gas_.particles[q], now_, gas_.box, gas_.clock);
     ++collisions_;
     ++gas_.events.collisions;
+    if (approach > -slow_approach) [[unlikely]]
+      watch(p, q, since);
     const auto [first, second] =
         search_.around_both(p, gas_.calendar[p].cell, q, gas_.calendar[q].cell);
     gas_.calendar[p].contact_time = never;
     gas_.calendar[q].contact_time = never;
     update(p, first);
     update(q, second);
+  }
+
+  [[gnu::noinline]] void watch(std::uint32_t p, std::uint32_t q, double since) {
+    gas_.clock.now = now_;
+    gas_.clock.collisions = collisions_;
+    note_slow_collision(gas_, p, q, since);
   }
 
   void cross(std::uint32_t p) {
@@ -157,7 +171,7 @@ class EventLoop {
   static constexpr std::uint32_t stride = 4;  // slots between two steps of look_ahead()
 
   Gas& gas_;
-  Physics physics_;
+  const Physics& physics_;
   std::uint64_t looked_at_ = 0;
   Search search_;
   double now_;

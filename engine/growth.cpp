@@ -31,7 +31,7 @@ struct GrowingSpheres {
     return pair.start + std::max(gap, 0.0) / (std::sqrt(discriminant) - approach);
   }
 
-  void collide(Particle& a, Particle& b, double now, const Box& box, Tally&) const {
+  double collide(Particle& a, Particle& b, double now, const Box& box, Clock&) const {
     advance(a, now);
     advance(b, now);
     const Encounter contact(a, b, now, box);
@@ -39,6 +39,7 @@ struct GrowingSpheres {
     // Reflected in the frame of the surfaces, which move at growth_rate / 2 each.
     exchange(a, b, contact,
              dot(contact.r, contact.v) / distance2 - growth_rate / std::sqrt(distance2));
+    return -1;  // growth keeps them apart: nothing for the watchdog
   }
 };
 

@@ -2,7 +2,7 @@
 //
 // A neighbourhood's slots are filtered and compressed to a list of some 13 candidates, whose
 // records are loaded four at a time, transposed in registers to one vector a coordinate, and solved
-// by the operations of InelasticSpheres::contact_time() (contact.hpp), one for one and unfused, so
+// by the operations of HardSpheres::contact_time() (contact.hpp), one for one and unfused, so
 // the bits are the same for any vector width. A scalar test with early exits spends its time on
 // mispredicted branches: this doubled the whole engine's speed.
 #if defined(HAFF_ENGINE_SEARCH_INL) == defined(HWY_TARGET_TOGGLE)
@@ -23,12 +23,12 @@ namespace haff::engine::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
-using SimdSearch = PlainSearch<InelasticSpheres>;  // processors without vectors worth the name
+using SimdSearch = PlainSearch<HardSpheres>;  // processors without vectors worth the name
 #else
 
 class SimdSearch {
  public:
-  SimdSearch(const Gas& gas, const InelasticSpheres&) : gas_(gas) {}
+  SimdSearch(const Gas& gas, const HardSpheres&) : gas_(gas) {}
 
   HWY_INLINE Contact around(std::uint32_t p, Cell cell, double now) {
     const std::size_t count = gather(p, gas_.bricks.around(cell), list_);
@@ -263,8 +263,10 @@ class SimdSearch {
       const V discriminant =
           hn::Sub(hn::Mul(approach, approach), hn::Mul(dot(vx, vy, vz, vx, vy, vz), gap));
       std::uint8_t bits = 0;
-      hn::StoreMaskBits(
-          d, hn::And(hn::Lt(approach, hn::Zero(d)), hn::Ge(discriminant, hn::Zero(d))), &bits);
+      hn::StoreMaskBits(d,
+                        hn::And(hn::Lt(approach, hn::Set(d, -smallest_approach)),
+                                hn::Ge(discriminant, hn::Zero(d))),
+                        &bits);
       touching |= std::uint64_t{bits} << k;
       hn::Store(approach, d, approach_ + k);
       hn::Store(gap, d, gap_ + k);

@@ -2,7 +2,6 @@
 #include "engine/simulation.hpp"
 
 #include <cmath>
-#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/simulation.cpp"
@@ -10,49 +9,80 @@
 #include <hwy/highway.h>
 
 #include "engine/event_loop-inl.hpp"
+#include "engine/laws.hpp"
 #include "engine/search-inl.hpp"
+#include "engine/soundness.hpp"
+
+// Outside of the namespaces of targets: once.
+#ifndef HAFF_ENGINE_COURSE
+#define HAFF_ENGINE_COURSE
+namespace haff::engine {
 
 // From here on the particles do not fit in the second-level cache.
-#ifndef HAFF_ENGINE_WORTH_PREFETCHING
-#define HAFF_ENGINE_WORTH_PREFETCHING
-namespace haff::engine {
 inline constexpr std::size_t worth_prefetching = 16000;
 
-template <class Physics>
-struct EventLoops {
-  void (*run)(Gas&, const Physics&, std::int64_t);
-  void (*predict_all)(Gas&, const Physics&);
+// What is chosen once per simulation: how to search, what a collision does.
+class Course {
+ public:
+  virtual ~Course() = default;
+  virtual void run(Gas& gas, std::int64_t collisions, double end) = 0;
+  virtual void predict_all(Gas& gas) = 0;
+  // What the law of restitution remembers: see Forgetful.
+  virtual void store(State& state) const = 0;
+  virtual void before_synchronization(const Gas& gas) = 0;
+  virtual void scale(int exponent) = 0;
 };
+
 }  // namespace haff::engine
 #endif
 
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-// What is chosen once per simulation: how to search, what a collision does.
-template <class Search, class Physics, bool prefetching = false>
-struct Course {
-  static void run(Gas& gas, const Physics& physics, std::int64_t collisions) {
-    EventLoop<Search, Physics, prefetching>(gas, physics).run(collisions);
+template <class Search, class Law, bool prefetching = false>
+class CourseOf : public Course {
+ public:
+  CourseOf(const Law& law, const State& start) : law_(law) { law_.recall(start); }
+  void run(Gas& gas, std::int64_t collisions, double end) override {
+    EventLoop<Search, SmoothSpheres<Law>, prefetching>(gas, physics_).run(collisions, end);
   }
-  static void predict_all(Gas& gas, const Physics& physics) {
-    EventLoop<Search, Physics>(gas, physics).predict_all();
+  void predict_all(Gas& gas) override {
+    EventLoop<Search, SmoothSpheres<Law>>(gas, physics_).predict_all();
   }
+  void store(State& state) const override { law_.store(state); }
+  void before_synchronization(const Gas& gas) override {
+    law_.before_synchronization(gas.particles, gas.clock.now);
+  }
+  void scale(int exponent) override { law_.scale(exponent); }
+
+ private:
+  Law law_;
+  SmoothSpheres<Law> physics_{law_};
 };
 
-template <class Course>
-EventLoops<InelasticSpheres> loops_of() {
-  return {Course::run, Course::predict_all};
+template <class Law>
+Course* course_by(const Law& law, const Gas& gas, const State& start, Prediction prediction) {
+  if (!Bricks::fits(gas.box))
+    return new CourseOf<PlainSearch<HardSpheres, Everybody>, Law>(law, start);
+  if (!gas.bricks.tell_images_apart())
+    return new CourseOf<PlainSearch<HardSpheres, NearImages>, Law>(law, start);
+  if (prediction == Prediction::scalar)
+    return new CourseOf<PlainSearch<HardSpheres>, Law>(law, start);
+  if (gas.particles.size() < worth_prefetching) return new CourseOf<SimdSearch, Law>(law, start);
+  return new CourseOf<SimdSearch, Law, true>(law, start);
 }
 
-EventLoops<InelasticSpheres> choose(const Gas& gas, Prediction prediction) {
-  using Physics = InelasticSpheres;
-  if (!Bricks::fits(gas.box)) return loops_of<Course<PlainSearch<Physics, Everybody>, Physics>>();
-  if (!gas.bricks.tell_images_apart())
-    return loops_of<Course<PlainSearch<Physics, NearImages>, Physics>>();
-  if (prediction == Prediction::scalar) return loops_of<Course<PlainSearch<Physics>, Physics>>();
-  if (gas.particles.size() < worth_prefetching) return loops_of<Course<SimdSearch, Physics>>();
-  return loops_of<Course<SimdSearch, Physics, true>>();
+// The course for the law the model asks for; nullptr if there is no such law.
+Course* choose(const Model& model, const Gas& gas, const State& start, Prediction prediction) {
+  Course* course = nullptr;
+  const auto try_law = [&]<class Law>(const Law*) {
+    if (Law::name == model.law.name)
+      course = course_by(Law(model.restitution, model.law.parameters), gas, start, prediction);
+  };
+  [&]<class... Law>(const std::tuple<Law...>*) {
+    (try_law(static_cast<const Law*>(nullptr)), ...);
+  }(static_cast<const Laws*>(nullptr));
+  return course;
 }
 
 const char* target_name() {
@@ -70,35 +100,54 @@ HWY_EXPORT(target_name);
 
 class Simulation::Implementation {
  public:
-  Implementation(const Model& model, const State& start, Prediction prediction)
-      : gas(start),
-        physics{.restitution = model.restitution},
-        loops(HWY_DYNAMIC_DISPATCH(choose)(gas, prediction)),
-        next_stop(next_synchronization(start.collisions, start.particles())) {
-    prepare(gas);
-    loops.predict_all(gas, physics);
+  Implementation(const Model& model, const State& state, Prediction prediction)
+      : gas(sound(state)), course(HWY_DYNAMIC_DISPATCH(choose)(model, gas, state, prediction)) {
+    if (!course) throw std::invalid_argument("there is no law of restitution " + model.law.name);
+    start(gas.particles, gas.clock);
+    begin_period();
   }
 
   void run_to(std::int64_t collisions) {
     while (gas.clock.collisions < collisions) {
-      loops.run(gas, physics, std::min(collisions, next_stop));
+      const std::int64_t stop = std::min(collisions, next_stop);
+      course->run(gas, stop, longest_period(count()) * expected);
+      if (gas.clock.collisions < stop)
+        throw Breakdown("the particles do not meet any more, after " +
+                        std::to_string(gas.clock.collisions) + " collisions");
       if (gas.clock.collisions == next_stop) synchronize_now();
     }
-  }
-
-  void synchronize_now() {
-    synchronize(gas.particles, gas.clock, gas.box);
-    next_stop = next_synchronization(gas.clock.collisions, count());
-    prepare(gas);
-    loops.predict_all(gas, physics);
   }
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(gas.particles.size()); }
 
   Gas gas;
-  InelasticSpheres physics;
-  EventLoops<InelasticSpheres> loops;
-  std::int64_t next_stop;
+  std::unique_ptr<Course> course;
+  double expected = 0;  // length of the period, in scaled time
+  std::int64_t next_stop = 0;
+
+ private:
+  static const State& sound(const State& state) {
+    if (const auto wrong = unsoundness(state)) throw Breakdown(*wrong);
+    return state;
+  }
+
+  void synchronize_now() {
+    must_have_progressed(gas, expected);
+    const double volume = gas.box.side * gas.box.side * gas.box.side;
+    audit(gas.particles, gas.clock, allowed_overlap(count() / volume, gas.clock.now / expected));
+    course->before_synchronization(gas);
+    synchronize(gas.particles, gas.clock, gas.box);
+    begin_period();
+  }
+
+  // After a synchronization, at which every simulation begins.
+  void begin_period() {
+    course->scale(gas.clock.exponent);
+    expected = expected_period(gas);
+    next_stop = next_synchronization(gas.clock.collisions, count());
+    prepare(gas);
+    course->predict_all(gas);
+  }
 };
 
 std::int64_t collisions_at(double tau, std::uint32_t particles) {
@@ -152,15 +201,18 @@ std::vector<Vector> Simulation::positions() const {
 }
 
 Tally Simulation::take_tally() {
-  Clock& clock = self_->gas.clock;
-  const Tally scaled = std::exchange(clock.tally, {});
-  return {.dissipated = std::ldexp(scaled.dissipated, -2 * clock.exponent),
-          .virial = std::ldexp(scaled.virial, -clock.exponent)};
+  return engine::take_tally(self_->gas.clock);
+}
+
+Invariants Simulation::invariants() const {
+  return self_->gas.clock.invariants;
 }
 
 State Simulation::state() const {
   if (!synchronized()) throw std::logic_error("a state exists only at a synchronization");
-  return to_state(self_->gas.particles, self_->gas.clock, self_->gas.box);
+  State state = to_state(self_->gas.particles, self_->gas.clock, self_->gas.box);
+  self_->course->store(state);
+  return state;
 }
 
 Events Simulation::events() const {

@@ -9,17 +9,27 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/state.hpp"
 
 namespace haff::engine {
 
+// How the restitution coefficient depends on the collision: a law of laws.hpp by its name, with
+// its parameters, e.g. {"tc", {{"t_c", 1e-4}}}.
+struct RestitutionLaw {
+  std::string name = "constant";
+  std::map<std::string, double> parameters = {};
+};
+
 struct Model {
   double restitution = 1;  // e, normal
+  RestitutionLaw law = {};
 };
 
 // Which implementation looks for contacts. All give the same bits.
@@ -37,6 +47,18 @@ struct Breakdown : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Inelastic collapse: some particles collide infinitely often within a finite time (watchdog.hpp).
+// Not an error of the simulation, but the end of what constant restitution can say.
+struct Collapse : std::runtime_error {
+  Collapse(const std::string& message, std::vector<std::uint32_t> ids, const Vector& at,
+           std::int64_t collision)
+      : std::runtime_error(message), particles(std::move(ids)), place(at), collisions(collision) {}
+
+  std::vector<std::uint32_t> particles;  // ids, sorted
+  Vector place;                          // of one of them, in [0, L)
+  std::int64_t collisions;               // when it was noticed
+};
+
 // Pair collisions after which tau (collisions per particle) is reached: ceil(tau N / 2).
 std::int64_t collisions_at(double tau, std::uint32_t particles);
 
@@ -46,13 +68,15 @@ inline constexpr double synchronization_period = 10;
 
 class Simulation {
  public:
+  // Throws Breakdown if the state is none of hard spheres (soundness.hpp), std::invalid_argument if
+  // there is no such law or a parameter of it is missing.
   Simulation(const Model& model, const State& start, Prediction prediction = Prediction::simd);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
   // Go on until exactly so many pair collisions have happened in all, synchronizing on the way
-  // whenever that is due. Throws Breakdown.
+  // whenever that is due. Throws Breakdown or Collapse; after that the gas can only be looked at.
   void run_to(std::int64_t collisions);
 
   std::uint32_t particles() const;
@@ -68,6 +92,7 @@ class Simulation {
 
   // What collisions did since the last call.
   Tally take_tally();
+  Invariants invariants() const;
 
   // The state, only at a synchronization (throws std::logic_error elsewhere).
   State state() const;

@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace haff::engine {
@@ -20,6 +22,19 @@ struct Tally {
   double virial = 0;      // sum of sigma * |momentum transfer|; p = nT + virial / (d V time)
 
   bool operator==(const Tally&) const = default;
+};
+
+// Whether the physics held: cheap counters of every run, since its start. What they may be at most,
+// and why: soundness.hpp.
+struct Invariants {
+  double closest2 = 1;              // smallest squared distance at a collision [sigma^2]
+  std::int64_t past_events = 0;     // events whose time had passed when their turn came
+  std::int64_t watchdog_trips = 0;  // collisions too slow to be resolved (watchdog.hpp)
+  double energy_mismatch = 0;       // largest |loss summed over collisions - change of kinetic
+                                    // energy| between synchronizations, relative to that energy
+  double momentum_removed = 0;      // largest |sum of m v| / (sqrt(N) * rms speed) set to zero
+
+  bool operator==(const Invariants&) const = default;
 };
 
 struct State {
@@ -35,7 +50,10 @@ struct State {
   std::int64_t collisions = 0;  // pair collisions C since the start; tau = 2 C / N
   double time = 0;              // true time since the start
   Tally tally;                  // in scaled units, like the velocities
-  double momentum_removed = 0;  // largest |sum of m v| / (sqrt(N) * rms speed) zeroed so far
+  Invariants invariants;
+
+  // What the law of restitution remembers from one collision to the next, by name; mostly nothing.
+  std::map<std::string, std::vector<double>> memory;
 
   std::uint32_t particles() const { return static_cast<std::uint32_t>(id.size()); }
   bool operator==(const State&) const = default;

@@ -2,15 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "engine/contact.hpp"
 #include "engine/simulation.hpp"
+#include "engine/soundness.hpp"
 
 namespace haff::engine {
 namespace {
 
-// Velocities are doubled when the energy per particle has fallen below this. [scaled units]
+// Velocities are doubled when the energy per particle has fallen below the one, halved when it has
+// risen above the other: far enough apart that an elastic gas at 1 is never scaled. [scaled units]
 constexpr double smallest_energy = 0.25;
+constexpr double largest_energy = 4;
+
+// Below this squares lose their digits, and a factor that made up for it would overflow.
+constexpr double smallest_normal = 1e-290;
 
 // The ten low bits of x, two places apart.
 std::uint64_t spread(std::uint64_t x) {
@@ -33,18 +42,54 @@ std::uint64_t place_on_curve(const Vector& position, const Box& box) {
 void rescale(std::span<Particle> particles, Clock& clock) {
   int doublings = 0;
   double energy = kinetic_energy(particles);
-  if (energy <= 0) return;
+  if (!std::isfinite(energy)) throw Breakdown("the kinetic energy is not finite");
+  if (energy < smallest_normal) return;  // nobody moves
   for (; energy < smallest_energy; energy *= 4) ++doublings;
+  for (; energy > largest_energy; energy /= 4) --doublings;
   if (doublings == 0) return;
   const double factor = std::ldexp(1.0, doublings);
   for (Particle& p : particles)
     for (double& v : p.velocity) v *= factor;
   clock.exponent += doublings;
-  clock.tally.virial *= factor;
-  clock.tally.dissipated *= factor * factor;
+  clock.before.virial *= factor;
+  clock.before.dissipated *= factor * factor;
+}
+
+// Apart from what was lost in earlier, warmer periods, beside which the loss of this one would
+// vanish.
+void settle(Clock& clock) {
+  clock.before.dissipated += clock.tally.dissipated;
+  clock.before.virial += clock.tally.virial;
+  clock.tally = {};
 }
 
 }  // namespace
+
+void audit(std::span<const Particle> particles, Clock& clock, double allowed_overlap) {
+  const double energy = kinetic_energy(particles);
+  const double lost =
+      (clock.taken + clock.tally.dissipated) / static_cast<double>(particles.size());
+  const double mismatch = std::abs(clock.energy - energy - lost) / clock.energy;
+  clock.invariants.energy_mismatch = std::max(clock.invariants.energy_mismatch, mismatch);
+  const std::optional<std::string> broken = std::isfinite(energy)
+                                                ? violation(clock.invariants, allowed_overlap)
+                                                : "the kinetic energy is not finite";
+  if (broken)
+    throw Breakdown(*broken + ", after " + std::to_string(clock.collisions) + " collisions");
+}
+
+void start(std::span<Particle> particles, Clock& clock) {
+  rescale(particles, clock);
+  clock.energy = kinetic_energy(particles);
+}
+
+Tally take_tally(Clock& clock) {
+  clock.taken += clock.tally.dissipated;
+  settle(clock);
+  const Tally scaled = std::exchange(clock.before, {});
+  return {.dissipated = std::ldexp(scaled.dissipated, -2 * clock.exponent),
+          .virial = std::ldexp(scaled.virial, -clock.exponent)};
+}
 
 Vector wrapped(Vector position, const Box& box) {
   for (double& x : position) {
@@ -66,11 +111,14 @@ void synchronize(std::span<Particle> particles, Clock& clock, const Box& box) {
     p.time = 0;
     p.changes = 0;
   }
+  settle(clock);
+  clock.taken = 0;
   clock.start = clock.time();
   clock.now = 0;
-  clock.momentum_removed = std::max(clock.momentum_removed, remove_momentum(particles));
-  rescale(particles, clock);
+  const double momentum = remove_momentum(particles);
+  clock.invariants.momentum_removed = std::max(clock.invariants.momentum_removed, momentum);
   sort_in_space(particles, box);
+  start(particles, clock);  // sums in the new order, as a run that is resumed here would
 }
 
 void sort_in_space(std::span<Particle> particles, const Box& box) {
@@ -125,8 +173,8 @@ State to_state(std::span<const Particle> particles, const Clock& clock, const Bo
   state.exponent = clock.exponent;
   state.collisions = clock.collisions;
   state.time = clock.start;
-  state.tally = clock.tally;
-  state.momentum_removed = clock.momentum_removed;
+  state.tally = clock.before;
+  state.invariants = clock.invariants;
   return state;
 }
 
@@ -140,8 +188,8 @@ Clock to_clock(const State& state) {
   clock.collisions = state.collisions;
   clock.start = state.time;
   clock.exponent = state.exponent;
-  clock.tally = state.tally;
-  clock.momentum_removed = state.momentum_removed;
+  clock.before = state.tally;
+  clock.invariants = state.invariants;
   return clock;
 }
 

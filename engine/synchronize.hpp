@@ -6,8 +6,8 @@
 //     keeps event times short however long the gas has cooled;
 //   - rounding feeds a total momentum that does not cool and would carry all the energy near
 //     T/T0 = 1e-32: it is set to zero again, and the amount recorded;
-//   - when the gas has cooled, velocities are multiplied by a power of two (exact, and so is the
-//     inverse scaling of time), so that numbers stay near 1 down to any temperature;
+//   - when the gas has cooled or been heated, velocities are multiplied by a power of two (exact,
+//     and so is the inverse scaling of time), so that numbers stay near 1 at any temperature;
 //   - particles are sorted along a space-filling curve, so that neighbours in space are neighbours
 //     in memory. The curve depends on the box only: the order is part of the physics' bits (sums
 //     run along it), cell size is not.
@@ -16,21 +16,20 @@
 #include <span>
 #include <vector>
 
+#include "engine/clock.hpp"
 #include "engine/particle.hpp"
 
 namespace haff::engine {
 
-// Where a trajectory stands between two synchronizations.
-struct Clock {
-  std::int64_t collisions = 0;
-  double now = 0;    // since the last synchronization, in scaled units
-  double start = 0;  // true time of the last synchronization
-  int exponent = 0;  // true velocity = velocity * 2^-exponent, true time = now * 2^exponent
-  Tally tally;       // in scaled units
-  double momentum_removed = 0;
+// The clock of a gas that is about to start from these particles: scaled, its energy noted.
+void start(std::span<Particle> particles, Clock& clock);
 
-  double time() const;  // true
-};
+// The tally in true units; starts it anew.
+Tally take_tally(Clock& clock);
+
+// Before a synchronization: has the kinetic energy changed by what was lost in collisions, and are
+// all invariants as they may be (soundness.hpp)? Notes the one, throws Breakdown if not the other.
+void audit(std::span<const Particle> particles, Clock& clock, double allowed_overlap);
 
 void synchronize(std::span<Particle> particles, Clock& clock, const Box& box);
 

@@ -306,6 +306,42 @@ std::vector<std::uint64_t> seeds(const Placed& placed) {
   return list;
 }
 
+// Whatever holds a list, at any depth, becomes several without one: the product of all lists.
+// Numbers are written in one way, so that equal effects have equal texts.
+std::vector<Json> expanded(const Json& value) {
+  if (value.is_number()) return {value.get<double>() + 0.0};
+  std::vector<Json> all;
+  if (value.is_array()) {
+    for (const Json& item : value)
+      for (Json& one : expanded(item)) all.push_back(std::move(one));
+    return all;
+  }
+  if (!value.is_object()) return {value};
+  all.push_back(Json::object());
+  for (const auto& [key, member] : value.items()) {
+    std::vector<Json> product;
+    for (const Json& choice : expanded(member))
+      for (Json one : all) {
+        one[key] = choice;
+        product.push_back(std::move(one));
+      }
+    all = std::move(product);
+  }
+  return all;
+}
+
+std::vector<std::string> effects(const Placed& placed) {
+  std::vector<std::string> texts;
+  for (Json& one : expanded(placed.value)) {
+    // What is so without being asked for is no effect.
+    if (one.value("/restitution/law"_json_pointer, "") == "constant") one.erase("restitution");
+    std::string text = one.dump();
+    if (std::find(texts.begin(), texts.end(), text) == texts.end())
+      texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
 SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {
   SubGrid grid{.e = source.list<double>("e"),
                .n = source.list<double>("n"),
@@ -317,7 +353,8 @@ SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {
                .checkpoint_every = source["checkpoint_every"].value.get<double>(),
                .observables = observables(source),
                .profiles_every = std::nullopt,
-               .fields_at = {}};
+               .fields_at = {},
+               .effects = effects(source["effects"])};
   // Kept where they decide what is measured: elsewhere two grids that differ in them are the same.
   const auto& names = grid.observables;
   if (std::any_of(names.begin(), names.end(), is_profile))

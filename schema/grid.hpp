@@ -31,6 +31,7 @@ struct SubGrid {
   std::vector<std::string> observables;  // sorted
   std::optional<double> profiles_every;  // where an observable is a profile
   std::vector<double> fields_at;         // increasing; where fields are an observable
+  std::vector<std::string> effects;      // each as in Job::effects
 };
 
 struct Grid {

@@ -168,6 +168,19 @@ std::optional<Results> Reader::results(std::int64_t job_id) const {
   });
 }
 
+std::optional<Invariants> Reader::invariants(std::int64_t job_id) const {
+  return database_->guarded([&]() -> std::optional<Invariants> {
+    SQLite::Statement row(database_->sqlite(), "SELECT * FROM invariants WHERE job_id = ?");
+    row.bind(1, job_id);
+    if (!row.executeStep()) return std::nullopt;
+    return Invariants{.largest_overlap = real(row, "largest_overlap"),
+                      .past_events = integer(row, "past_events"),
+                      .watchdog_trips = integer(row, "watchdog_trips"),
+                      .energy_mismatch = real(row, "energy_mismatch"),
+                      .momentum_removed = real(row, "momentum_removed")};
+  });
+}
+
 std::vector<CheckpointInfo> Reader::checkpoints() const {
   return database_->guarded([&] {
     SQLite::Statement statement(database_->sqlite(), "SELECT * FROM checkpoints ORDER BY job_id");

@@ -141,6 +141,43 @@ std::vector<std::string> enumerated(const Json& rule) {
   return {};
 }
 
+// What a rule says of an object: itself, the alternative that is one, and what follows from the
+// object's own words ("if" a member has this value, "then").
+std::vector<const Json*> rules_of_object(const Json& rule, const Json& value) {
+  const Json& here = resolved(rule);
+  if (here.contains("anyOf"))
+    for (const Json& alternative : here["anyOf"])
+      if (resolved(alternative).value("type", "") == "object")
+        return rules_of_object(alternative, value);
+  std::vector<const Json*> rules{&here};
+  if (!here.contains("allOf")) return rules;
+  for (const Json& condition : here["allOf"])
+    for (const auto& [key, member] : condition["if"]["properties"].items())
+      if (value.contains(key) && value[key] == member["const"]) rules.push_back(&condition["then"]);
+  return rules;
+}
+
+// A key too much or one too few.
+std::optional<GridError> wrong_keys(const Json& value, const Json& rule, const std::string& file,
+                                    const Pointer& where) {
+  if (!value.is_object() || where.empty()) return std::nullopt;
+  const auto rules = rules_of_object(rule, value);
+  for (const Json* one : rules)
+    if (const auto key = unknown_key(value, *one))
+      return fault(file, where / *key,
+                   "unknown key; " + suggestion(*key, keys((*one)["properties"])));
+  for (const Json* one : rules) {
+    if (!one->contains("required")) continue;
+    for (const Json& key : (*one)["required"])
+      if (!value.contains(key))
+        return fault(file, where,
+                     "has no " + quoted(key) + "; expected " +
+                         (*rules.front())["properties"][key.get<std::string>()]["description"]
+                             .get<std::string>());
+  }
+  return std::nullopt;
+}
+
 GridError explanation(const Json& document, const std::string& file, const Pointer& where) {
   const Json& value = document.at(where);
   const Json* rule = rule_at(where);
@@ -154,6 +191,8 @@ GridError explanation(const Json& document, const std::string& file, const Point
     for (const std::string& key : required_keys())
       if (!value.contains(key))
         return fault(file, where, "has no " + quoted(key) + "; expected " + description(key));
+
+  if (const auto wrong = wrong_keys(value, *rule, file, where)) return *wrong;
 
   const auto words = enumerated(*rule);
   if (value.is_string() && !words.empty())

@@ -265,6 +265,20 @@ void replace(SQLite::Database& sqlite, const Lease& lease, const Checkpoint& che
   progress.exec();
 }
 
+void replace(SQLite::Database& sqlite, const Lease& lease, const Invariants& invariants) {
+  SQLite::Statement statement(sqlite, R"(
+    INSERT OR REPLACE INTO invariants VALUES (:job_id, :largest_overlap, :past_events,
+                                              :watchdog_trips, :energy_mismatch,
+                                              :momentum_removed))");
+  statement.bind(":job_id", lease.job_id);
+  statement.bind(":largest_overlap", invariants.largest_overlap);
+  statement.bind(":past_events", invariants.past_events);
+  statement.bind(":watchdog_trips", invariants.watchdog_trips);
+  statement.bind(":energy_mismatch", invariants.energy_mismatch);
+  statement.bind(":momentum_removed", invariants.momentum_removed);
+  statement.exec();
+}
+
 // A commit, with its checksum already computed: nobody should wait for the write lock meanwhile.
 class Entry {
  public:
@@ -278,6 +292,7 @@ class Entry {
     insert(database.sqlite(), lease_, commit_.profiles);
     insert(database.sqlite(), lease_, commit_.fields);
     if (commit_.checkpoint) replace(database.sqlite(), lease_, *commit_.checkpoint, sum_);
+    if (commit_.invariants) replace(database.sqlite(), lease_, *commit_.invariants);
     report(database.sqlite(), lease_, commit_.progress);
   }
 
@@ -404,6 +419,20 @@ Status Store::fail(const Lease& lease, const std::string& error) {
   });
 }
 
+void Store::collapse(const Lease& lease, const Commit& commit, const std::string& what) {
+  const Entry entry(lease, commit);
+  database().transaction([&] {
+    SQLite::Database& sqlite = database().sqlite();
+    entry.write(database());
+    SQLite::Statement statement(sqlite, "UPDATE jobs SET error = ? WHERE job_id = ?");
+    statement.bind(1, what);
+    statement.bind(2, lease.job_id);
+    statement.exec();
+    leave(sqlite, lease, Status::collapsed);
+    report(sqlite, lease, commit.progress);
+  });
+}
+
 void Store::release(const Lease& lease) {
   database().transaction([&] {
     must_hold(database(), lease);
@@ -441,6 +470,7 @@ bool Store::restart(std::int64_t job_id) {
       return false;
     change("DELETE FROM checkpoint_chunks WHERE job_id = ?");
     change("DELETE FROM checkpoints WHERE job_id = ?");
+    change("DELETE FROM invariants WHERE job_id = ?");
     return true;
   });
 }

@@ -92,6 +92,17 @@ struct Results {
   bool operator==(const Results&) const = default;
 };
 
+// A row of invariants: whether the physics of a run held, counted since its start.
+struct Invariants {
+  double largest_overlap = 0;  // [sigma]
+  std::int64_t past_events = 0;
+  std::int64_t watchdog_trips = 0;
+  double energy_mismatch = 0;   // relative
+  double momentum_removed = 0;  // relative to sqrt(N) rms speeds
+
+  bool operator==(const Invariants&) const = default;
+};
+
 // A state of the engine, encoded by the campaign.
 struct Checkpoint {
   double tau = 0;
@@ -155,6 +166,7 @@ struct Commit {
   std::vector<Profile> profiles = {};
   std::vector<Field> fields = {};
   std::optional<Checkpoint> checkpoint = {};  // replaces the job's older one
+  std::optional<Invariants> invariants = {};  // the same
   Progress progress = {};
 };
 
@@ -226,6 +238,7 @@ class Reader {
   std::vector<Profile> profiles(std::int64_t job_id, const std::string& name) const;
   std::optional<Field> field(std::int64_t job_id, const std::string& name, double tau) const;
   std::optional<Results> results(std::int64_t job_id) const;
+  std::optional<Invariants> invariants(std::int64_t job_id) const;
 
   std::vector<CheckpointInfo> checkpoints() const;  // one a job at most, by job_id
   // The job's newest checkpoint. Throws Damage if a chunk is missing or a bit is wrong.
@@ -278,6 +291,9 @@ class Store : public Reader {
   // ran to. Returns done, or pending if a plan extended the job meanwhile.
   Status finish(const Lease& lease, const Commit& commit, const std::optional<Results>& results,
                 double tau_max);
+
+  // The end of a job in inelastic collapse: its samples up to then are kept, `what` as its error.
+  void collapse(const Lease& lease, const Commit& commit, const std::string& what);
 
   // An error ended this attempt: pending again, or failed if it was the last. Returns which.
   Status fail(const Lease& lease, const std::string& error);

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
+#include "campaign/restore.hpp"
 #include "engine/initial.hpp"
 
 using namespace haff;
@@ -18,7 +20,12 @@ engine::State a_state() {
   state.collisions = 123456789012;
   state.time = 0.1;
   state.tally = {.dissipated = 1.5, .virial = -0.0};
-  state.momentum_removed = 1e-17;
+  state.invariants = {.closest2 = 1 - 1e-15,
+                      .past_events = 3,
+                      .watchdog_trips = 1,
+                      .energy_mismatch = 1e-14,
+                      .momentum_removed = 1e-17};
+  state.memory["last_contact"] = {-0.5, 0.0, -std::numeric_limits<double>::infinity()};
   return state;
 }
 
@@ -61,4 +68,28 @@ TEST_CASE("checkpoint: bytes added are found") {
   auto bytes = encode(a_state());
   bytes.resize(bytes.size() + 8);
   CHECK_THROWS_AS(decode(bytes), DamagedCheckpoint);
+}
+
+TEST_CASE("checkpoint: a count whose bytes overflow is found behind a valid checksum") {
+  engine::State state = a_state();
+  state.memory.clear();
+  auto bytes = encode(state);
+  // The number of ids, after the fields' count and the field "box".
+  const std::size_t ids = 8 + 4 + 4 + (1 + 3 + 1 + 8 + 8) + (1 + 2 + 1);
+  const std::uint64_t wrong = (std::uint64_t{1} << 62) + 100;
+  std::memcpy(bytes.data() + ids, &wrong, sizeof wrong);
+  bytes.resize(bytes.size() - 8);
+  const std::uint64_t sum = checkpoint_checksum(bytes);
+  bytes.resize(bytes.size() + 8);
+  std::memcpy(bytes.data() + bytes.size() - 8, &sum, sizeof sum);
+  CHECK_THROWS_WITH_AS(decode(bytes), doctest::Contains("cut short"), DamagedCheckpoint);
+}
+
+TEST_CASE("checkpoint: an overlap behind a valid checksum is refused, pair and depth named") {
+  const schema::Job job{.e = 0.8, .n = 0.4, .particles = 100, .seed = 1};
+  engine::State state = engine::initial_state(job.n, job.particles, 1);
+  state.position[1] = state.position[0];
+  state.position[1][2] += 0.75;
+  CHECK_THROWS_WITH_AS(restore({.tau = 0, .collisions = 0, .state = encode(state)}, job),
+                       doctest::Contains("overlap by 0.25"), DamagedCheckpoint);
 }

@@ -13,16 +13,17 @@ using namespace haff;
 
 namespace {
 
+template <class Law = engine::ConstantRestitution>
 void agrees(std::uint32_t particles, double n, double restitution, std::uint64_t seed, double tau,
-            engine::Prediction prediction) {
+            engine::Prediction prediction, const engine::RestitutionLaw& law = {}) {
   CAPTURE(particles);
   CAPTURE(n);
   CAPTURE(restitution);
   CAPTURE(seed);
-  const engine::Model model{.restitution = restitution};
+  const engine::Model model{.restitution = restitution, .law = law};
   const engine::State start = engine::initial_state(n, particles, seed);
   engine::Simulation gas(model, start, prediction);
-  tests::Reference reference(model, start);
+  tests::Reference<Law> reference(model, start);
   const std::int64_t last = engine::collisions_at(tau, particles);
   for (std::int64_t collisions = 1; collisions <= last; ++collisions) {
     gas.run_to(collisions);
@@ -81,4 +82,15 @@ TEST_CASE("boxes too small for cells equal the reference") {
   agrees(3, 0.3, 0.9, 2, 60, engine::Prediction::simd);
   agrees(8, 0.5, 0.9, 3, 40, engine::Prediction::simd);
   agrees(32, 0.8, 0.7, 4, 20, engine::Prediction::simd);
+}
+
+TEST_CASE("laws of restitution equal the reference") {
+  const engine::RestitutionLaw threshold{"threshold", {{"speed", 0.3}}};
+  const engine::RestitutionLaw tc{"tc", {{"t_c", 0.02}}};
+  for (const double e : {0.8, 0.3}) {
+    agrees<engine::ElasticThreshold>(70, 0.4, e, 7, 32, engine::Prediction::simd, threshold);
+    agrees<engine::ContactDuration>(70, 0.4, e, 7, 32, engine::Prediction::simd, tc);
+    agrees<engine::ContactDuration>(70, 0.4, e, 7, 12, engine::Prediction::scalar, tc);
+    agrees<engine::ContactDuration>(8, 0.5, e, 3, 40, engine::Prediction::simd, tc);
+  }
 }

@@ -2,7 +2,8 @@
 // real engine must agree with it event by event and bit by bit.
 //
 // It shares the definition of a contact, a collision and a synchronization (engine/contact.hpp,
-// engine/synchronize.hpp) and nothing else: no cells, no calendar, no SIMD.
+// engine/synchronize.hpp), the laws of restitution, and nothing else: no cells, no calendar, no
+// SIMD.
 #pragma once
 
 #include <algorithm>
@@ -10,20 +11,24 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/contact.hpp"
+#include "engine/laws.hpp"
 #include "engine/simulation.hpp"
 #include "engine/synchronize.hpp"
 
 namespace haff::tests {
 
+template <class Law = engine::ConstantRestitution>
 class Reference {
  public:
-  Reference(const engine::Model& model, const engine::State& start)
-      : physics_{model.restitution},
-        box_(start.box),
-        particles_(start.particles()),
-        clock_(engine::to_clock(start)) {
-    engine::copy_particles(start, particles_);
+  Reference(const engine::Model& model, const engine::State& state)
+      : law_(model.restitution, model.law.parameters),
+        box_(state.box),
+        particles_(state.particles()),
+        clock_(engine::to_clock(state)) {
+    engine::copy_particles(state, particles_);
+    law_.recall(state);
+    engine::start(particles_, clock_);
+    law_.scale(clock_.exponent);
   }
 
   // The next collision.
@@ -42,7 +47,7 @@ class Reference {
         for (std::size_t j = i + 1; j < particles_.size(); ++j)
           for (int image = 0; image < 27; ++image) {
             const engine::Vector boxes{image % 3 - 1.0, image / 3 % 3 - 1.0, image / 9 - 1.0};
-            const double time = physics_.contact_time(
+            const double time = engine::HardSpheres::contact_time(
                 engine::Encounter(particles_[i], particles_[j], clock_.now, box_, boxes));
             const auto ids = std::minmax(particles_[i].id, particles_[j].id);
             if (const auto found = std::tuple(time, ids.first, ids.second); found < first) {
@@ -55,15 +60,20 @@ class Reference {
         clock_.now = horizon;
         continue;
       }
-      clock_.now = std::get<0>(first);
-      physics_.collide(particles_[a], particles_[b], clock_.now, box_, clock_.tally);
+      clock_.now = std::max(clock_.now, std::get<0>(first));
+      engine::SmoothSpheres<Law>(law_).collide(particles_[a], particles_[b], clock_.now, box_,
+                                               clock_);
       break;
     }
     if (++clock_.collisions == next_) synchronize();
   }
 
   bool synchronized() const { return clock_.now == 0; }
-  engine::State state() const { return engine::to_state(particles_, clock_, box_); }
+  engine::State state() const {
+    engine::State state = engine::to_state(particles_, clock_, box_);
+    law_.store(state);
+    return state;
+  }
   double time() const { return clock_.time(); }
   std::vector<engine::Vector> velocities() const {
     std::vector<engine::Vector> all;
@@ -73,12 +83,15 @@ class Reference {
 
  private:
   void synchronize() {
+    engine::audit(particles_, clock_, 1e-9);  // sigma: boxes are small, periods may be long
+    law_.before_synchronization(particles_, clock_.now);
     engine::synchronize(particles_, clock_, box_);
+    law_.scale(clock_.exponent);
     next_ = engine::next_synchronization(clock_.collisions,
                                          static_cast<std::uint32_t>(particles_.size()));
   }
 
-  engine::InelasticSpheres physics_;
+  Law law_;
   engine::Box box_;
   std::vector<engine::Particle> particles_;
   engine::Clock clock_;

@@ -1,4 +1,4 @@
-#include "campaign/soundness.hpp"
+#include "engine/soundness.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include "engine/simulation.hpp"
 
 using namespace haff;
-using namespace haff::campaign;
+using namespace haff::engine;
 
 namespace {
 

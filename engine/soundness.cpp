@@ -1,18 +1,25 @@
-#include "campaign/soundness.hpp"
-
-#include <fmt/format.h>
+#include "engine/soundness.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
-namespace haff::campaign {
+namespace haff::engine {
 namespace {
 
-using engine::State;
-using engine::Vector;
+// Text made as printf() does.
+template <class... Value>
+std::string text(const char* format, Value... value) {
+  std::array<char, 200> buffer;
+  std::snprintf(buffer.data(), buffer.size(), format, value...);
+  return buffer.data();
+}
 
 double distance2(const Vector& a, const Vector& b, double box) {
   double sum = 0;
@@ -86,32 +93,37 @@ bool is_finite(const Vector& v) {
 std::optional<std::string> unsound_numbers(const State& state) {
   const std::size_t particles = state.id.size();
   if (particles < 2 || state.position.size() != particles || state.velocity.size() != particles)
-    return fmt::format("{} ids, {} positions and {} velocities do not make a gas", particles,
-                       state.position.size(), state.velocity.size());
-  if (!std::isfinite(state.box) || state.box < 2)
-    return fmt::format("box side {} (at least 2 sigma expected)", state.box);
+    return text("%zu ids, %zu positions and %zu velocities do not make a gas", particles,
+                state.position.size(), state.velocity.size());
+  if (!std::isfinite(state.box) || state.box < smallest_box)
+    return text("box side %.6g (at least %g sigma expected)", state.box, smallest_box);
   if (state.collisions < 0 || !std::isfinite(state.time) || state.time < 0)
-    return fmt::format("time {} after {} collisions", state.time, state.collisions);
-  if (!std::isfinite(state.tally.dissipated) || !std::isfinite(state.tally.virial) ||
-      !std::isfinite(state.momentum_removed))
+    return text("time %g after %lld collisions", state.time,
+                static_cast<long long>(state.collisions));
+  if (!std::isfinite(state.tally.dissipated) || !std::isfinite(state.tally.virial))
     return "a sum over collisions is not finite";
+  for (const auto& [name, values] : state.memory)
+    for (const double value : values)
+      if (std::isnan(value)) return name + " holds a value that is not a number";
 
   std::vector<bool> seen(particles);
   for (std::size_t i = 0; i < particles; ++i) {
     const std::uint32_t id = state.id[i];
-    if (id >= particles || seen[id]) return fmt::format("particle id {} twice or too large", id);
+    if (id >= particles || seen[id]) return text("particle id %u twice or too large", id);
     seen[id] = true;
     if (!is_finite(state.velocity[i]) || !is_finite(state.position[i]))
-      return fmt::format("particle {}: position or velocity is not finite", id);
+      return text("particle %u: position or velocity is not finite", id);
     for (const double x : state.position[i])
       if (x < 0 || x >= state.box)
-        return fmt::format("particle {}: position {} outside the box [0, {})", id, x, state.box);
+        return text("particle %u: position %.17g outside the box [0, %.17g)", id, x, state.box);
   }
   return std::nullopt;
 }
 
 std::optional<std::string> deepest_overlap(const State& state) {
-  constexpr double closest2 = (1 - allowed_overlap) * (1 - allowed_overlap);
+  const double allowed =
+      allowed_overlap(static_cast<double>(state.particles()) / (state.box * state.box * state.box));
+  const double closest2 = (1 - allowed) * (1 - allowed);
   double least2 = closest2;
   std::pair<std::size_t, std::size_t> pair;
   Cells(state).for_each_pair([&](std::size_t i, std::size_t j) {
@@ -122,9 +134,8 @@ std::optional<std::string> deepest_overlap(const State& state) {
     }
   });
   if (least2 == closest2) return std::nullopt;
-  return fmt::format("particles {} and {} overlap by {:.3g} sigma ({:.0e} allowed)",
-                     state.id[pair.first], state.id[pair.second], 1 - std::sqrt(least2),
-                     allowed_overlap);
+  return text("particles %u and %u overlap by %.3g sigma (%.0e allowed)", state.id[pair.first],
+              state.id[pair.second], 1 - std::sqrt(least2), allowed);
 }
 
 }  // namespace
@@ -134,4 +145,30 @@ std::optional<std::string> unsoundness(const State& state) {
   return deepest_overlap(state);
 }
 
-}  // namespace haff::campaign
+double allowed_overlap(double n, double periods) {
+  const double mean_free_path = 1 / (std::numbers::sqrt2 * std::numbers::pi * n);
+  const double flight = 30 * mean_free_path * std::max(periods, 1.0);
+  return smallest_allowed_overlap + std::numeric_limits<double>::epsilon() * flight * flight;
+}
+
+double largest_overlap(const Invariants& invariants) {
+  return 1 - std::sqrt(invariants.closest2);
+}
+
+std::optional<std::string> violation(const Invariants& invariants, double allowed_overlap) {
+  const double overlap = largest_overlap(invariants);
+  if (!(overlap <= allowed_overlap))
+    return text("particles overlapped by %.3g sigma when they collided (%.0e allowed)", overlap,
+                allowed_overlap);
+  if (!(invariants.energy_mismatch <= allowed_energy_mismatch))
+    return text(
+        "the loss in collisions and the change of kinetic energy differ by %.3g of that "
+        "energy (%.0e allowed)",
+        invariants.energy_mismatch, allowed_energy_mismatch);
+  if (!(invariants.momentum_removed <= allowed_momentum))
+    return text("the total momentum had grown to %.3g of sqrt(N) rms speeds (%.0e allowed)",
+                invariants.momentum_removed, allowed_momentum);
+  return std::nullopt;
+}
+
+}  // namespace haff::engine

@@ -1,0 +1,24 @@
+// Where a trajectory stands, and what it has counted.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/state.hpp"
+
+namespace haff::engine {
+
+struct Clock {
+  std::int64_t collisions = 0;
+  double now = 0;    // since the last synchronization, in scaled units
+  double start = 0;  // true time of the last synchronization
+  int exponent = 0;  // true velocity = velocity * 2^-exponent, true time = now * 2^exponent
+  Tally tally;       // since then, or since it was last taken; in scaled units
+  Tally before;      // what was not taken by then
+  Invariants invariants;
+  double energy = 0;  // kinetic, per particle, at the last synchronization, in scaled units
+  double taken = 0;   // of the loss since then, what is no longer in the tally
+
+  double time() const;  // true
+};
+
+}  // namespace haff::engine

@@ -1,0 +1,195 @@
+// Random input through the real code: grids, states near contact, checkpoints.
+//
+//   fuzz --seed 7 --rounds 1000
+//
+// Whatever comes in, it is either used or refused with one of the types of error that callers
+// expect; anything else (a crash, a sanitizer's finding, another exception) ends the program, which
+// then says with which seed and round.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <string>
+
+#include "campaign/checkpoint.hpp"
+#include "campaign/restore.hpp"
+#include "engine/initial.hpp"
+#include "engine/random.hpp"
+#include "engine/simulation.hpp"
+#include "engine/soundness.hpp"
+#include "schema/grid.hpp"
+
+using namespace haff;
+
+namespace {
+
+using engine::Random;
+
+std::uint64_t below(Random& random, std::uint64_t end) {
+  return random.bits() % end;
+}
+
+// ---- grids ------------------------------------------------------------------------------------
+
+std::string value(Random& random, int depth) {
+  static const char* const scalars[] = {"0.8",  "1",  "-1",      "0",  "1e-4",  "1e300",      "0.4",
+                                        "1000", "2",  "\"tc\"",  "{}", "null",  "true",       "[]",
+                                        "50",   "90", "\"0.8\"", "1e", "1e999", "\"\\u0000\""};
+  if (depth > 0 && below(random, 3) == 0) {
+    std::string list = "[";
+    for (std::uint64_t k = below(random, 3); k-- > 0;) list += value(random, depth - 1) + ",";
+    return list + value(random, depth - 1) + "]";
+  }
+  if (depth > 0 && below(random, 4) == 0) {
+    static const char* const objects[] = {
+        R"({"restitution": {"law": "tc", "t_c": 1e-4}})",
+        R"({"restitution": [{"law": "threshold", "speed": [1, 2]}, {"law": "constant"}]})",
+        R"({"restitution": {"law": "tc"}})", R"({"0.8": 90})", R"({"law": "tc", "t_c": []})"};
+    return objects[below(random, std::size(objects))];
+  }
+  return scalars[below(random, std::size(scalars))];
+}
+
+std::string grid(Random& random) {
+  static const char* const keys[] = {"e",           "n",       "N",     "seeds",
+                                     "tau_max",     "effects", "grids", "sample_every",
+                                     "equilibrate", "name",    "nn",    "observables"};
+  std::string text = R"({"e": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 20)";
+  if (below(random, 2) == 0) text = "{\"e\": " + value(random, 2);
+  for (std::uint64_t k = below(random, 5); k-- > 0;)
+    text += std::string(", \"") + keys[below(random, std::size(keys))] + "\": " + value(random, 2);
+  text += "}";
+  for (std::uint64_t k = below(random, 4); k-- > 1;)
+    text[below(random, text.size())] = static_cast<char>(below(random, 256));
+  return text;
+}
+
+void try_grid(Random& random) {
+  try {
+    schema::parse_grid(grid(random), "fuzz.json", {.bytes = 1e9, .bytes_per_particle = 200});
+  } catch (const schema::GridError&) {
+  }
+}
+
+// ---- states near contact ----------------------------------------------------------------------
+
+engine::State state_near_contact(Random& random) {
+  const auto particles = static_cast<std::uint32_t>(2 + below(random, 60));
+  engine::State state =
+      engine::initial_state(0.02 + 0.5 * random.uniform(), particles, random.bits() >> 11);
+  // Some pairs are put at a diameter, give or take a few roundings; some velocities are special.
+  for (std::uint64_t k = below(random, 6); k-- > 0;) {
+    const auto a = below(random, particles), b = below(random, particles);
+    const auto axis = below(random, 3);
+    const double step = 1 + (static_cast<double>(below(random, 9)) - 4) * 0x1p-52;
+    state.position[b] = state.position[a];
+    state.position[b][axis] += below(random, 2) == 0 ? step : 1 + 1e-9 * random.uniform();
+    if (state.position[b][axis] >= state.box) state.position[b][axis] -= state.box;
+  }
+  for (std::uint64_t k = below(random, 6); k-- > 0;) {
+    static constexpr double factors[] = {0, -0.0, 1e-8, 1e8, -1, 1e-300};
+    for (double& v : state.velocity[below(random, particles)])
+      v *= factors[below(random, std::size(factors))];
+  }
+  return state;
+}
+
+engine::Model some_model(Random& random) {
+  static constexpr double restitutions[] = {0, 0.05, 0.5, 0.8, 1};
+  engine::Model model{.restitution = restitutions[below(random, std::size(restitutions))]};
+  if (below(random, 3) == 0) model.law = {"tc", {{"t_c", 1e-3}}};
+  if (below(random, 3) == 0) model.law = {"threshold", {{"speed", 1e-2}}};
+  return model;
+}
+
+void try_state(Random& random) {
+  const engine::State start = state_near_contact(random);
+  const engine::Model model = some_model(random);
+  try {
+    engine::Simulation simd(model, start);
+    engine::Simulation scalar(model, start, engine::Prediction::scalar);
+    double before = start.time;
+    for (const double tau : {3.0, 10.0, 23.0}) {
+      simd.run_to(engine::collisions_at(tau, start.particles()));
+      scalar.run_to(engine::collisions_at(tau, start.particles()));
+      if (simd.velocities() != scalar.velocities() || simd.positions() != scalar.positions())
+        throw std::logic_error("SIMD and scalar engines differ");
+      if (!(simd.time() >= before)) throw std::logic_error("time ran backwards");
+      before = simd.time();
+    }
+  } catch (const engine::Breakdown&) {  // refused, or said to be broken
+  } catch (const engine::Collapse&) {
+  }
+}
+
+// ---- checkpoints ------------------------------------------------------------------------------
+
+// The checksum at the end, made right again: what is behind it is what is tested.
+void reseal(std::vector<std::byte>& bytes) {
+  bytes.resize(bytes.size() - sizeof(std::uint64_t));
+  const std::uint64_t sum = campaign::checkpoint_checksum(bytes);
+  bytes.resize(bytes.size() + sizeof sum);
+  std::memcpy(bytes.data() + bytes.size() - sizeof sum, &sum, sizeof sum);
+}
+
+void try_checkpoint(Random& random) {
+  const schema::Job job{.e = 0.8, .n = 0.4, .particles = 40, .seed = 1};
+  engine::State state = engine::initial_state(job.n, job.particles, 1);
+  state.memory["last_contact"] = std::vector<double>(job.particles, -1);
+  auto bytes = campaign::encode(state);
+  for (std::uint64_t k = 1 + below(random, 4); k-- > 0;) {
+    const auto at = below(random, bytes.size());
+    switch (below(random, 4)) {
+      case 0:
+        bytes[at] ^= std::byte{1} << below(random, 8);
+        break;
+      case 1:
+        bytes[at] = static_cast<std::byte>(below(random, 256));
+        break;
+      case 2:
+        bytes.resize(std::max<std::size_t>(at, 40));
+        break;
+      default:
+        for (std::size_t c = at; c < std::min(at + 8, bytes.size()); ++c)
+          bytes[c] = std::byte{0xff};
+    }
+  }
+  if (below(random, 4) > 0) reseal(bytes);
+  try {
+    const engine::State read =
+        campaign::restore({.tau = 0, .collisions = 0, .state = std::move(bytes)}, job);
+    engine::Simulation gas({.restitution = 0.8, .law = {"tc", {{"t_c", 1e-3}}}}, read);
+    gas.run_to(engine::collisions_at(1, gas.particles()));
+  } catch (const campaign::DamagedCheckpoint&) {
+  } catch (const engine::Breakdown&) {
+  } catch (const engine::Collapse&) {
+  } catch (const std::invalid_argument&) {  // a memory of other particles
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::uint64_t seed = 1;
+  std::uint64_t rounds = 100;
+  CLI::App app("Random grids, states and checkpoints through the real code");
+  app.add_option("--seed", seed, "of the first round")->capture_default_str();
+  app.add_option("--rounds", rounds, "rounds, each with a seed of its own")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  for (std::uint64_t round = seed; round < seed + rounds; ++round) {
+    std::fprintf(stderr, "\rround %llu", static_cast<unsigned long long>(round));
+    Random random(round, engine::Stream::velocities);
+    try {
+      for (int k = 0; k < 20; ++k) try_grid(random);
+      try_state(random);
+      for (int k = 0; k < 20; ++k) try_checkpoint(random);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "\nfuzz --seed %llu --rounds 1: %s\n",
+                   static_cast<unsigned long long>(round), error.what());
+      return 1;
+    }
+  }
+  std::fprintf(stderr, "\n");
+  return 0;
+}
