@@ -29,9 +29,9 @@ inline constexpr double smallest_box = 2;
 inline constexpr double allowed_energy_mismatch = 1e-11;
 
 // What rounding adds to the total momentum between two synchronizations is a random walk of some
-// 10 N steps of 1e-16, some 1e-15 of sqrt(N) rms speeds; more where two or three particles lose
-// nearly all their speed meanwhile. Of this size it carries 1e-18 of the energy.
-inline constexpr double allowed_momentum = 1e-9;
+// 10 N steps of 1e-16, some 1e-15 of sqrt(N) rms speeds at the beginning. Of the size allowed it
+// carries 1e-24 of the energy.
+inline constexpr double allowed_momentum = 1e-12;
 
 // So many collisions too slow to be resolved (watchdog.hpp) are an inelastic collapse; one may be
 // chance in the longest of runs.

@@ -32,7 +32,7 @@ struct Invariants {
   std::int64_t watchdog_trips = 0;  // collisions too slow to be resolved (watchdog.hpp)
   double energy_mismatch = 0;       // largest |loss summed over collisions - change of kinetic
                                     // energy| between synchronizations, relative to that energy
-  double momentum_removed = 0;      // largest |sum of m v| / (sqrt(N) * rms speed) set to zero
+  double momentum_removed = 0;      // largest |sum of m v| set to zero, / (sqrt(N) * rms speed)
 
   bool operator==(const Invariants&) const = default;
 };

@@ -115,7 +115,9 @@ void synchronize(std::span<Particle> particles, Clock& clock, const Box& box) {
   clock.taken = 0;
   clock.start = clock.time();
   clock.now = 0;
-  const double momentum = remove_momentum(particles);
+  // Against the speeds at the beginning of the period, in which the rounding was done.
+  const double slowed = clock.energy > 0 ? std::sqrt(kinetic_energy(particles) / clock.energy) : 1;
+  const double momentum = remove_momentum(particles) * std::min(slowed, 1.0);
   clock.invariants.momentum_removed = std::max(clock.invariants.momentum_removed, momentum);
   sort_in_space(particles, box);
   start(particles, clock);  // sums in the new order, as a run that is resumed here would
