@@ -1,13 +1,10 @@
 #include "analysis/cooling.hpp"
 
-#include <gsl/gsl_fit.h>
-
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
-#include <vector>
 
 namespace haff::analysis {
 
@@ -56,23 +53,6 @@ std::optional<double> tau_c(std::span<const double> tau, std::span<const double>
     return tau[i - 1] + fraction * (tau[i] - tau[i - 1]);
   }
   return std::nullopt;
-}
-
-PowerLaw late_decay(std::span<const double> tau, std::span<const double> temperature, double from) {
-  if (tau.size() != temperature.size()) {
-    throw std::invalid_argument("late decay: as many temperatures as times are needed");
-  }
-  std::vector<double> x, y;
-  for (std::size_t i = 0; i < tau.size(); ++i) {
-    if (tau[i] < from || tau[i] <= 0) continue;
-    x.push_back(std::log(tau[i]));
-    y.push_back(std::log(temperature[i]));
-  }
-  if (x.size() < 3) throw std::invalid_argument("late decay: at least three samples are needed");
-  double level = 0, slope = 0, level_variance = 0, covariance = 0, variance = 0, squares = 0;
-  gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &level, &slope, &level_variance, &covariance,
-                 &variance, &squares);
-  return {.exponent = -slope, .standard_error = std::sqrt(variance)};
 }
 
 }  // namespace haff::analysis

@@ -1,5 +1,4 @@
-// How a gas cools: Haff's law, the measured decay rate, the end of the homogeneous stage and the
-// decay beyond it.
+// How a gas cools: Haff's law, the measured decay rate, the end of the homogeneous stage.
 //
 //   2 gamma_0     = (1 - e^2) / d                    decay rate of T on the clock tau
 //   T_Haff(tau)   = T_0 exp(-2 gamma_0 tau),  T_0 = 2/d  (energy E(0) = 1 a particle)
@@ -41,16 +40,5 @@ double pressure(double n, double temperature, double virial, double particles, d
 // Nothing if the series does not get there. Throws std::invalid_argument if lengths differ.
 std::optional<double> tau_c(std::span<const double> tau, std::span<const double> temperature,
                             double e, int d = 3);
-
-// The power law T ~ tau^-exponent of the samples from `from` on: a straight line through ln T
-// against ln tau, all samples weighing alike. What is left of a clustering gas decays so, roughly.
-struct PowerLaw {
-  double exponent = 0;
-  // From the scatter about the line. Samples of one series are correlated, so this is a lower
-  // bound: the spread over independent realizations is the honest error.
-  double standard_error = 0;
-};
-// Throws std::invalid_argument if lengths differ or fewer than three samples are left.
-PowerLaw late_decay(std::span<const double> tau, std::span<const double> temperature, double from);
 
 }  // namespace haff::analysis

@@ -208,8 +208,10 @@ void add_a2_return(const MeanSeries& series, std::vector<Comparison>& table) {
   const std::size_t samples = homogeneous_samples(series);
   const auto smooth = analysis::smoothed(series.a2.value, return_window);
   if (!mean_tau_c(series) || samples < 2 * return_window) return;
+  // The deepest of the first half: near tau_c a realization may turn either way.
   const auto end = smooth.begin() + static_cast<std::ptrdiff_t>(samples);
-  const auto deepest = std::min_element(smooth.begin(), end);
+  const auto deepest =
+      std::min_element(smooth.begin(), smooth.begin() + static_cast<std::ptrdiff_t>(samples / 2));
   const auto back = std::max_element(deepest, end);
   const auto tau_at = [&](auto place) {
     return series.tau[static_cast<std::size_t>(place - smooth.begin())];
@@ -302,6 +304,20 @@ std::optional<double> at(const Curve& curve, double x) {
   return curve.y[i - 1] + share * (curve.y[i] - curve.y[i - 1]);
 }
 
+// What theory has at x = r / (sigma sqrt(tau)) for each of the scaled curves, whose tau each knows.
+std::vector<double> theory_of(const MeanSeries& series, std::string_view name,
+                              const std::vector<ScaledCorrelation>& curves, double x) {
+  std::vector<double> values;
+  for (const ScaledCorrelation& each : curves) {
+    const auto theory =
+        analysis::velocity_correlation({.e = series.e, .n = series.n}, x * std::sqrt(each.tau),
+                                       each.tau, analysis::Fluid::incompressible);
+    values.push_back((name == "G_parallel" ? theory.parallel : theory.perpendicular) *
+                     std::pow(each.tau, 1.5) / analysis::initial_temperature());
+  }
+  return values;
+}
+
 // The spread of the scaled curves of figure 10 about their mean, over their common range.
 void add_collapse(const MeanSeries& series, std::vector<Comparison>& table) {
   for (const char* name : {"G_parallel", "G_perpendicular"}) {
@@ -309,16 +325,20 @@ void add_collapse(const MeanSeries& series, std::vector<Comparison>& table) {
     if (curves.size() < 2) continue;
     constexpr double step = 0.1;  // in r / (sigma sqrt(tau))
     double spread = 0, scale = 0, from = Comparison::none, until = 0;
+    double theory_spread = 0, theory_scale = 0;
     for (double x = nearest_pair / std::sqrt(scaling_from); x < farthest_pair; x += step) {
       std::vector<double> values;
-      for (const Curve& curve : curves) {
-        if (const auto y = at(curve, x)) values.push_back(*y);
+      for (const ScaledCorrelation& each : curves) {
+        if (const auto y = at(each.curve, x)) values.push_back(*y);
       }
       if (values.size() < curves.size()) continue;
       const auto mean = analysis::estimate(values);
       // The spread of single curves, not of their mean.
       spread += std::pow(mean.standard_error, 2) * static_cast<double>(values.size());
       scale += mean.mean * mean.mean;
+      const auto theory = analysis::estimate(theory_of(series, name, curves, x));
+      theory_spread += std::pow(theory.standard_error, 2) * static_cast<double>(values.size());
+      theory_scale += theory.mean * theory.mean;
       if (!(from <= x)) from = x;
       until = x;
     }
@@ -336,8 +356,10 @@ void add_collapse(const MeanSeries& series, std::vector<Comparison>& table) {
          .source = paper,
          .criterion = percent(collapse_tolerance),
          .holds = deviation <= collapse_tolerance,
-         .note = fmt::format("{:g} ≤ τ ≤ {:g}, {:.1f} ≤ r/(σ√τ) ≤ {:.1f}, N = {}", scaling_from,
-                             scaling_until, from, until, count_text(series.particles))});
+         .note = fmt::format("{:g} ≤ τ ≤ {:g}, {:.1f} ≤ r/(σ√τ) ≤ {:.1f}, N = {}; incompressible "
+                             "theory itself {:.1f} %",
+                             scaling_from, scaling_until, from, until, count_text(series.particles),
+                             100 * std::sqrt(theory_spread / theory_scale))});
   }
 }
 

@@ -51,7 +51,12 @@ Curve measured_curve(const MeanSeries& series);
 
 // The curves of figure 10, G_parallel or G_perpendicular: G tau^(d/2) m / T_0 against r / (sigma
 // sqrt(tau)) at each tau measured between scaling_from and scaling_until.
-std::vector<Curve> scaled_correlations(const MeanSeries& series, const std::string& name);
+struct ScaledCorrelation {
+  double tau;
+  Curve curve;
+};
+std::vector<ScaledCorrelation> scaled_correlations(const MeanSeries& series,
+                                                   const std::string& name);
 
 // The plots; nothing if the averages lack their data.
 std::optional<Plot> figure_01(const Averages& averages);

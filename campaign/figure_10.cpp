@@ -30,14 +30,15 @@ Curve scaled(const MeanSeries& series, const MeanProfile& profile) {
 
 }  // namespace
 
-std::vector<Curve> scaled_correlations(const MeanSeries& series, const std::string& name) {
-  std::vector<Curve> curves;
+std::vector<ScaledCorrelation> scaled_correlations(const MeanSeries& series,
+                                                   const std::string& name) {
+  std::vector<ScaledCorrelation> curves;
   for (const MeanProfile& profile : series.profiles) {
     if (profile.name != name || profile.tau < scaling_from || profile.tau > scaling_until) continue;
-    curves.push_back(scaled(series, profile));
-    curves.back().legend = fmt::format("{{/:Italic τ}} = {:g}", profile.tau);
+    curves.push_back({.tau = profile.tau, .curve = scaled(series, profile)});
+    curves.back().curve.legend = fmt::format("{{/:Italic τ}} = {:g}", profile.tau);
   }
-  for (std::size_t i = 0; i < curves.size(); ++i) curves[i].colour = shade(i, curves.size());
+  for (std::size_t i = 0; i < curves.size(); ++i) curves[i].curve.colour = shade(i, curves.size());
   return curves;
 }
 
@@ -47,12 +48,8 @@ std::optional<Plot> figure_10(const Averages& averages) {
   const MeanSeries& series = nearest(available, correlations_restitution);
 
   const auto parallel = scaled_correlations(series, "G_parallel");
-  auto perpendicular = scaled_correlations(series, "G_perpendicular");
+  const auto perpendicular = scaled_correlations(series, "G_perpendicular");
   if (parallel.size() < 2) return std::nullopt;
-  for (Curve& curve : perpendicular) {
-    curve.symbol = 6;
-    curve.legend = "";
-  }
 
   Panel panel{
       .x = {.label = "{/:Italic r} / ({/:Italic σ} {/:Italic τ}^{ 1/2})",

@@ -7,6 +7,7 @@
 
 #include "analysis/cooling.hpp"
 #include "analysis/energy_equation.hpp"
+#include "analysis/late_stage.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -50,7 +51,8 @@ std::optional<analysis::Estimate> late_exponent(const MeanSeries& series) {
   for (const Realization& run : series.runs) {
     if (!has_temperature(run) || !run.tau_c || run.tau.back() < late_until * *run.tau_c) continue;
     exponents.push_back(
-        analysis::late_decay(run.tau, run.temperature, late_from * *run.tau_c).exponent);
+        -analysis::late_exponent(run.tau, run.temperature, late_from * *run.tau_c, run.tau.back())
+             .exponent);
   }
   return estimate_of(exponents);
 }

@@ -65,15 +65,3 @@ TEST_CASE("cooling: collision rate and pressure by their definitions") {
   CHECK(pressure(0.4, 0.5, 0, 100, 1) == Approx(0.2));
   CHECK(pressure(10, 0.5, 3, 100, 1) == Approx(5.1));
 }
-
-TEST_CASE("cooling: the late decay of a power law is its exponent, whatever came before") {
-  std::vector<double> tau, temperature;
-  for (int k = 1; k <= 100; ++k) {
-    tau.push_back(k);
-    temperature.push_back(k < 50 ? 1.0 : 7 * std::pow(k, -3.5));
-  }
-  const PowerLaw law = late_decay(tau, temperature, 50);
-  CHECK(law.exponent == Approx(3.5).epsilon(1e-12));
-  CHECK(law.standard_error < 1e-9);
-  CHECK_THROWS_AS(late_decay(tau, temperature, 99), std::invalid_argument);
-}
