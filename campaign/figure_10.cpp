@@ -56,10 +56,13 @@ std::optional<Plot> figure_10(const Averages& averages) {
             .column = "r_scaled",
             .low = 0,
             .high = farthest},
-      .y = {.label = "{/:Italic G τ}^{3/2} {/:Italic m} / {/:Italic T}_0", .column = "G_scaled"},
-      .curves = parallel};
-  panel.curves.insert(panel.curves.end(), perpendicular.begin(), perpendicular.end());
-  for (Curve& curve : panel.curves) curve = until(farthest, std::move(curve));
+      .y = {.label = "{/:Italic G τ}^{3/2} {/:Italic m} / {/:Italic T}_0", .column = "G_scaled"}};
+  for (const auto& each : parallel) panel.curves.push_back(until(farthest, each.curve));
+  for (const auto& each : perpendicular) {
+    panel.curves.push_back(until(farthest, each.curve));
+    panel.curves.back().symbol = 6;
+    panel.curves.back().legend = "";
+  }
   const Range range = y_range(panel.curves);
   Curve key{.legend = "{/:Italic G}_{∥}", .look = Look::symbols};
   panel.curves.push_back(key);
