@@ -27,10 +27,12 @@ Curve slice(const VelocityField& gas, int k) {
   curve.look = Look::arrows;
   for (int i = 0; i < cells / 2; ++i) {
     for (int j = 0; j < cells / 2; ++j) {
-      const auto first = static_cast<std::size_t>(((i * cells + j) * cells + k) * field.components);
+      const double* velocity =
+          field.values.data() +
+          ((static_cast<std::ptrdiff_t>(i) * cells + j) * cells + k) * field.components;
       curve.x.push_back((i + 0.5) * cell);
       curve.y.push_back((j + 0.5) * cell);
-      curve.arrow.push_back({field.values[first] / unit, field.values[first + 1] / unit});
+      curve.arrow.push_back({velocity[0] / unit, velocity[1] / unit});
       curve.realizations.push_back(1);
     }
   }

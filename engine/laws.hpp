@@ -14,14 +14,32 @@
 // for, and has nothing of the others.
 #pragma once
 
+#include <memory>
+#include <stdexcept>
 #include <tuple>
 
 #include "engine/constant_restitution.hpp"
 #include "engine/contact_duration.hpp"
+#include "engine/course.hpp"
 #include "engine/elastic_threshold.hpp"
 
 namespace haff::engine {
 
 using Laws = std::tuple<ConstantRestitution, ElasticThreshold, ContactDuration>;
+
+// course(law), with the law that the model asks for. Throws std::invalid_argument if there is none.
+template <class CourseBy>
+std::unique_ptr<Course> with_law(const Model& model, const CourseBy& course_by) {
+  std::unique_ptr<Course> course;
+  const auto try_law = [&]<class Law>(const Law*) {
+    if (Law::name == model.law.name)
+      course = course_by(Law(model.restitution, model.law.parameters));
+  };
+  [&]<class... Law>(const std::tuple<Law...>*) {
+    (try_law(static_cast<const Law*>(nullptr)), ...);
+  }(static_cast<const Laws*>(nullptr));
+  if (!course) throw std::invalid_argument("there is no law of restitution " + model.law.name);
+  return course;
+}
 
 }  // namespace haff::engine

@@ -8,81 +8,22 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "engine/event_loop-inl.hpp"
-#include "engine/laws.hpp"
+#include "engine/course-inl.hpp"
 #include "engine/search-inl.hpp"
 #include "engine/soundness.hpp"
-
-// Outside of the namespaces of targets: once.
-#ifndef HAFF_ENGINE_COURSE
-#define HAFF_ENGINE_COURSE
-namespace haff::engine {
-
-// From here on the particles do not fit in the second-level cache.
-inline constexpr std::size_t worth_prefetching = 16000;
-
-// What is chosen once per simulation: how to search, what a collision does.
-class Course {
- public:
-  virtual ~Course() = default;
-  virtual void run(Gas& gas, std::int64_t collisions, double end) = 0;
-  virtual void predict_all(Gas& gas) = 0;
-  // What the law of restitution remembers: see Forgetful.
-  virtual void store(State& state) const = 0;
-  virtual void before_synchronization(const Gas& gas) = 0;
-  virtual void scale(int exponent) = 0;
-};
-
-}  // namespace haff::engine
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-template <class Search, class Law, bool prefetching = false>
-class CourseOf : public Course {
- public:
-  CourseOf(const Law& law, const State& start) : law_(law) { law_.recall(start); }
-  void run(Gas& gas, std::int64_t collisions, double end) override {
-    EventLoop<Search, SmoothSpheres<Law>, prefetching>(gas, physics_).run(collisions, end);
-  }
-  void predict_all(Gas& gas) override {
-    EventLoop<Search, SmoothSpheres<Law>>(gas, physics_).predict_all();
-  }
-  void store(State& state) const override { law_.store(state); }
-  void before_synchronization(const Gas& gas) override {
-    law_.before_synchronization(gas.particles, gas.clock.now);
-  }
-  void scale(int exponent) override { law_.scale(exponent); }
+// From here on the particles do not fit in the second-level cache.
+constexpr std::size_t worth_prefetching = 16000;
 
- private:
-  Law law_;
-  SmoothSpheres<Law> physics_{law_};
-};
-
-template <class Law>
-Course* course_by(const Law& law, const Gas& gas, const State& start, Prediction prediction) {
-  if (!Bricks::fits(gas.box))
-    return new CourseOf<PlainSearch<HardSpheres, Everybody>, Law>(law, start);
-  if (!gas.bricks.tell_images_apart())
-    return new CourseOf<PlainSearch<HardSpheres, NearImages>, Law>(law, start);
-  if (prediction == Prediction::scalar)
-    return new CourseOf<PlainSearch<HardSpheres>, Law>(law, start);
-  if (gas.particles.size() < worth_prefetching) return new CourseOf<SimdSearch, Law>(law, start);
-  return new CourseOf<SimdSearch, Law, true>(law, start);
-}
-
-// The course for the law the model asks for; nullptr if there is no such law.
-Course* choose(const Model& model, const Gas& gas, const State& start, Prediction prediction) {
-  Course* course = nullptr;
-  const auto try_law = [&]<class Law>(const Law*) {
-    if (Law::name == model.law.name)
-      course = course_by(Law(model.restitution, model.law.parameters), gas, start, prediction);
-  };
-  [&]<class... Law>(const std::tuple<Law...>*) {
-    (try_law(static_cast<const Law*>(nullptr)), ...);
-  }(static_cast<const Laws*>(nullptr));
-  return course;
+std::unique_ptr<Course> simd_course(const Model& model, const Gas& gas, const State& start) {
+  return with_law(model, [&]<class Law>(const Law& law) -> std::unique_ptr<Course> {
+    if (gas.particles.size() < worth_prefetching)
+      return std::make_unique<CourseOf<SimdSearch, Law>>(law, start);
+    return std::make_unique<CourseOf<SimdSearch, Law, true>>(law, start);
+  });
 }
 
 const char* target_name() {
@@ -95,14 +36,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace haff::engine {
 
-HWY_EXPORT(choose);
+HWY_EXPORT(simd_course);
 HWY_EXPORT(target_name);
 
 class Simulation::Implementation {
  public:
   Implementation(const Model& model, const State& state, Prediction prediction)
-      : gas(sound(state)), course(HWY_DYNAMIC_DISPATCH(choose)(model, gas, state, prediction)) {
-    if (!course) throw std::invalid_argument("there is no law of restitution " + model.law.name);
+      : gas(sound(state)), course(choose(model, gas, state, prediction)) {
     start(gas.particles, gas.clock);
     begin_period();
   }
@@ -129,6 +69,14 @@ class Simulation::Implementation {
   static const State& sound(const State& state) {
     if (const auto wrong = unsoundness(state)) throw Breakdown(*wrong);
     return state;
+  }
+
+  static std::unique_ptr<Course> choose(const Model& model, const Gas& gas, const State& state,
+                                        Prediction prediction) {
+    const bool simd = prediction == Prediction::simd && Bricks::fits(gas.box) &&
+                      gas.bricks.tell_images_apart();
+    return simd ? HWY_DYNAMIC_DISPATCH(simd_course)(model, gas, state)
+                : plain_course(model, gas, state);
   }
 
   void synchronize_now() {
