@@ -73,8 +73,8 @@ class Simulation::Implementation {
 
   static std::unique_ptr<Course> choose(const Model& model, const Gas& gas, const State& state,
                                         Prediction prediction) {
-    const bool simd = prediction == Prediction::simd && Bricks::fits(gas.box) &&
-                      gas.bricks.tell_images_apart();
+    const bool simd =
+        prediction == Prediction::simd && Bricks::fits(gas.box) && gas.bricks.tell_images_apart();
     return simd ? HWY_DYNAMIC_DISPATCH(simd_course)(model, gas, state)
                 : plain_course(model, gas, state);
   }
