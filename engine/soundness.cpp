@@ -38,7 +38,8 @@ class Cells {
     // More cells than particles gain nothing, however dilute the gas.
     const double most = std::cbrt(static_cast<double>(state.particles())) + 1;
     side_ = static_cast<int>(std::max(1.0, std::floor(std::min(state.box, most))));
-    begin_.resize(static_cast<std::size_t>(side_) * side_ * side_ + 1);
+    const auto side = static_cast<std::size_t>(side_);
+    begin_.resize(side * side * side + 1);
     for (const Vector& r : state.position) ++begin_[cell_of(r) + 1];
     for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
     members_.resize(state.position.size());

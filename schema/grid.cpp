@@ -118,8 +118,7 @@ std::string gigabytes(double bytes) {
 // Checks one file; every function throws GridError.
 class Examiner {
  public:
-  Examiner(const Json& document, const std::string& file, const Memory& memory)
-      : document_(document), file_(file), memory_(memory) {}
+  Examiner(const std::string& file, const Memory& memory) : file_(file), memory_(memory) {}
 
   // No list holds a value twice, however it is written.
   void no_repeats(const Json& value, const Pointer& where) const {
@@ -287,7 +286,6 @@ class Examiner {
     return all;
   }
 
-  const Json& document_;
   const std::string& file_;
   const Memory& memory_;
 };
@@ -372,7 +370,7 @@ Grid parse_grid(std::string_view text, const std::string& file, const Memory& me
   const Json document = read_document(text, file);
   check_rules(document, file);
 
-  const Examiner examiner(document, file, memory);
+  const Examiner examiner(file, memory);
   examiner.no_repeats(document, Pointer());
   const auto all = sources(document);
   for (const Source& source : all) examiner.complete(source);
