@@ -1,30 +1,14 @@
-// What the tests of this folder share: a folder that vanishes, and a small campaign.
+// What the tests of this folder share: a small campaign.
 #pragma once
 
-#include <cstdlib>
-#include <filesystem>
-#include <string>
 #include <vector>
 
 #include "schema/store.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace haff::schema {
 
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "haff-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
+using haff::TemporaryFolder;
 
 inline Job cooling(double e = 0.8, std::uint64_t seed = 1) {
   return {.kind = Kind::cooling,
