@@ -5,14 +5,17 @@
 namespace haff::campaign {
 
 engine::Model model_of(const schema::Job& job) {
-  engine::Model model{.restitution = job.e};
+  engine::Model model{.restitution = job.e, .seed = job.seed};
   const auto effects = nlohmann::json::parse(job.effects);
-  if (!effects.contains("restitution")) return model;
-  for (const auto& [key, value] : effects["restitution"].items()) {
-    if (key == "law")
-      model.law.name = value.get<std::string>();
-    else
-      model.law.parameters[key] = value.get<double>();
+  for (const auto& [effect, asked] : effects.items()) {
+    const bool is_law = effect == "restitution";
+    engine::Parameters& parameters = is_law ? model.law.parameters : model.effects[effect];
+    for (const auto& [key, value] : asked.items()) {
+      if (is_law && key == "law")
+        model.law.name = value.get<std::string>();
+      else
+        parameters[key] = value.get<double>();
+    }
   }
   return model;
 }

@@ -1,24 +1,12 @@
 // What laws of restitution are made from (laws.hpp).
 #pragma once
 
-#include <map>
 #include <span>
-#include <stdexcept>
-#include <string>
 
 #include "engine/contact.hpp"
+#include "engine/parameters.hpp"
 
 namespace haff::engine {
-
-using Parameters = std::map<std::string, double>;
-
-// A parameter that must be there and above zero. Throws std::invalid_argument.
-inline double positive(const Parameters& parameters, const std::string& key) {
-  const auto found = parameters.find(key);
-  if (found == parameters.end() || !(found->second > 0))
-    throw std::invalid_argument("the law of restitution needs " + key + " > 0");
-  return found->second;
-}
 
 // A law that remembers nothing from one collision to the next: what happens to memory.
 struct Forgetful {

@@ -22,10 +22,11 @@
 #include "engine/contact_duration.hpp"
 #include "engine/course.hpp"
 #include "engine/elastic_threshold.hpp"
+#include "engine/viscoelastic.hpp"
 
 namespace haff::engine {
 
-using Laws = std::tuple<ConstantRestitution, ElasticThreshold, ContactDuration>;
+using Laws = std::tuple<ConstantRestitution, ElasticThreshold, ContactDuration, Viscoelastic>;
 
 // course(law), with the law that the model asks for. Throws std::invalid_argument if there is none.
 template <class CourseBy>

@@ -8,13 +8,16 @@
 
 namespace haff::engine {
 
-enum class Stream : std::uint64_t { velocities = 1, growth = 2 };
+enum class Stream : std::uint64_t { velocities = 1, growth = 2, shuffle = 3, thermostat = 4 };
 
 // xoshiro256** (D. Blackman and S. Vigna, ACM TOMS 47, 36 (2021)), seeded by splitmix64.
 class Random {
  public:
-  Random(std::uint64_t seed, Stream stream) {
+  // `part`: of a stream that is used again and again, so that nothing of it need be stored between:
+  // the collision number at which it is used.
+  Random(std::uint64_t seed, Stream stream, std::uint64_t part = 0) {
     std::uint64_t x = seed ^ (static_cast<std::uint64_t>(stream) * 0xd1342543de82ef95u);
+    if (part != 0) x = split_mix(x) ^ part;
     for (auto& word : state_) word = split_mix(x);
   }
 
@@ -32,6 +35,14 @@ class Random {
 
   // Uniform in [0, 1), a multiple of 2^-53.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+
+  // Uniform in 0 ... count - 1: remainders of what lies below a multiple of count.
+  std::uint64_t below(std::uint64_t count) {
+    const std::uint64_t surplus = (0 - count) % count;  // 2^64 mod count
+    std::uint64_t drawn = bits();
+    while (drawn < surplus) drawn = bits();
+    return drawn % count;
+  }
 
   // Standard normal by C. F. F. Karney's algorithm N (ACM TOMS 42, 3 (2016)): comparisons of
   // uniform deviates only, so it needs no logarithm, whose last bit differs between libraries.

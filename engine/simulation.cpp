@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "engine/actions.hpp"
 #include "engine/course-inl.hpp"
 #include "engine/search-inl.hpp"
 #include "engine/soundness.hpp"
@@ -42,7 +43,11 @@ HWY_EXPORT(target_name);
 class Simulation::Implementation {
  public:
   Implementation(const Model& model, const State& state, Prediction prediction)
-      : gas(sound(state)), course(choose(model, gas, state, prediction)) {
+      : gas(sound(state)),
+        course(choose(model, gas, state, prediction)),
+        actions(actions_of(model, state)) {
+    for (const auto& [name, parameters] : model.effects)
+      if (!is_action(name)) throw std::invalid_argument("there is no effect " + name);
     start(gas.particles, gas.clock);
     begin_period();
   }
@@ -62,7 +67,8 @@ class Simulation::Implementation {
 
   Gas gas;
   std::unique_ptr<Course> course;
-  double expected = 0;  // length of the period, in scaled time
+  std::vector<std::unique_ptr<Action>> actions;
+  double expected = 0;  // length of a synchronization_period, in scaled time
   std::int64_t next_stop = 0;
 
  private:
@@ -80,11 +86,12 @@ class Simulation::Implementation {
   }
 
   void synchronize_now() {
-    must_have_progressed(gas, expected);
+    if (is_long) must_have_progressed(gas, expected);
     const double volume = gas.box.side * gas.box.side * gas.box.side;
     audit(gas.particles, gas.clock, allowed_overlap(count() / volume, gas.clock.now / expected));
     course->before_synchronization(gas);
     synchronize(gas.particles, gas.clock, gas.box);
+    act(actions, gas.particles, gas.clock);
     begin_period();
   }
 
@@ -93,9 +100,16 @@ class Simulation::Implementation {
     course->scale(gas.clock.exponent);
     expected = expected_period(gas);
     next_stop = next_synchronization(gas.clock.collisions, count());
+    for (const auto& action : actions)
+      next_stop = std::min(next_stop, action->next(gas.clock.collisions, count()));
+    is_long = next_stop - gas.clock.collisions > count();
     prepare(gas);
     course->predict_all(gas);
   }
+
+  // Whether the stretch up to next_stop must take time. A few collisions need not: an action can
+  // send those who have just collided at each other again, at once.
+  bool is_long = false;
 };
 
 std::int64_t collisions_at(double tau, std::uint32_t particles) {
@@ -160,6 +174,7 @@ State Simulation::state() const {
   if (!synchronized()) throw std::logic_error("a state exists only at a synchronization");
   State state = to_state(self_->gas.particles, self_->gas.clock, self_->gas.box);
   self_->course->store(state);
+  for (const auto& action : self_->actions) action->store(state);
   return state;
 }
 

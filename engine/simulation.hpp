@@ -20,16 +20,21 @@
 
 namespace haff::engine {
 
+using Parameters = std::map<std::string, double>;
+
 // How the restitution coefficient depends on the collision: a law of laws.hpp by its name, with
 // its parameters, e.g. {"tc", {{"t_c", 1e-4}}}.
 struct RestitutionLaw {
   std::string name = "constant";
-  std::map<std::string, double> parameters = {};
+  Parameters parameters = {};
 };
 
 struct Model {
   double restitution = 1;  // e, normal
   RestitutionLaw law = {};
+  // What else a scene asks for, by its name with its parameters: {{"shuffle", {{"every", 1}}}}.
+  std::map<std::string, Parameters> effects = {};
+  std::uint64_t seed = 0;  // of the random numbers that effects draw
 };
 
 // Which implementation looks for contacts. All give the same bits.
@@ -62,14 +67,15 @@ struct Collapse : std::runtime_error {
 // Pair collisions after which tau (collisions per particle) is reached: ceil(tau N / 2).
 std::int64_t collisions_at(double tau, std::uint32_t particles);
 
-// The gas is synchronized whenever tau is a multiple of this, and only there can it be stopped
-// and stored. Part of the trajectory's definition: changing it changes bits. [collisions/particle]
+// The gas is synchronized whenever tau is a multiple of this (and wherever an effect acts on it
+// between collisions), and only there can it be stopped and stored. Part of the trajectory's
+// definition: changing it changes bits. [collisions/particle]
 inline constexpr double synchronization_period = 10;
 
 class Simulation {
  public:
   // Throws Breakdown if the state is none of hard spheres (soundness.hpp), std::invalid_argument if
-  // there is no such law or a parameter of it is missing.
+  // there is no such law or effect, or a parameter of it is missing.
   Simulation(const Model& model, const State& start, Prediction prediction = Prediction::simd);
   ~Simulation();
   Simulation(Simulation&&) noexcept;

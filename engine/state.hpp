@@ -52,7 +52,8 @@ struct State {
   Tally tally;                  // in scaled units, like the velocities
   Invariants invariants;
 
-  // What the law of restitution remembers from one collision to the next, by name; mostly nothing.
+  // What a law of restitution or an effect remembers from one collision or action to the next, by
+  // name; mostly nothing.
   std::map<std::string, std::vector<double>> memory;
 
   std::uint32_t particles() const { return static_cast<std::uint32_t>(id.size()); }

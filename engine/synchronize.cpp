@@ -195,13 +195,18 @@ Clock to_clock(const State& state) {
   return clock;
 }
 
-std::int64_t next_synchronization(std::int64_t collisions, std::uint32_t particles) {
+std::int64_t next_at(std::int64_t collisions, std::size_t particles, double period, double phase) {
   const auto passed = static_cast<std::int64_t>(2.0 * static_cast<double>(collisions) /
-                                                (synchronization_period * particles));
+                                                (period * static_cast<double>(particles)));
   for (std::int64_t k = std::max<std::int64_t>(passed - 1, 0);; ++k) {
-    const auto at = collisions_at(synchronization_period * static_cast<double>(k), particles);
+    const auto at = collisions_at(period * (static_cast<double>(k) + phase),
+                                  static_cast<std::uint32_t>(particles));
     if (at > collisions) return at;
   }
+}
+
+std::int64_t next_synchronization(std::int64_t collisions, std::size_t particles) {
+  return next_at(collisions, particles, synchronization_period);
 }
 
 }  // namespace haff::engine

@@ -50,7 +50,11 @@ State to_state(std::span<const Particle> particles, const Clock& clock, const Bo
 void copy_particles(const State& state, std::span<Particle> particles);
 Clock to_clock(const State& state);
 
-// The collision number of the first synchronization after `collisions`.
-std::int64_t next_synchronization(std::int64_t collisions, std::uint32_t particles);
+// The first collision number after `collisions` at which tau is (k + phase) period, k = 0, 1, ...
+std::int64_t next_at(std::int64_t collisions, std::size_t particles, double period,
+                     double phase = 0);
+
+// That of the first synchronization.
+std::int64_t next_synchronization(std::int64_t collisions, std::size_t particles);
 
 }  // namespace haff::engine

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "schema/document.hpp"
+#include "schema/effects.hpp"
 #include "schema/job.hpp"
 #include "schema/rules.hpp"
 
@@ -96,6 +97,30 @@ std::vector<std::string> observables(const Source& source) {
   return names;
 }
 
+// Whatever holds a list, at any depth, becomes several without one: the product of all lists.
+// Numbers are written in one way, so that equal effects have equal texts.
+std::vector<Json> expanded(const Json& value) {
+  if (value.is_number()) return {value.get<double>() + 0.0};
+  std::vector<Json> all;
+  if (value.is_array()) {
+    for (const Json& item : value)
+      for (Json& one : expanded(item)) all.push_back(std::move(one));
+    return all;
+  }
+  if (!value.is_object()) return {value};
+  all.push_back(Json::object());
+  for (const auto& [key, member] : value.items()) {
+    std::vector<Json> product;
+    for (const Json& choice : expanded(member))
+      for (Json one : all) {
+        one[key] = choice;
+        product.push_back(std::move(one));
+      }
+    all = std::move(product);
+  }
+  return all;
+}
+
 // ---- rules that a JSON schema cannot express --------------------------------------------------
 
 // The shortest text that reads back as the same number: 0.8, 32000.
@@ -152,6 +177,12 @@ class Examiner {
       for (const double sample_every : source.list<double>("sample_every"))
         collides_between_samples(source, N, sample_every);
     }
+  }
+
+  void go_together(const Source& source) const {
+    const Placed effects = source["effects"];
+    for (const Json& one : expanded(effects.value))
+      if (const auto why = nonsense(one)) throw fault(file_, effects.where, *why);
   }
 
   // How far each e is run, in the order of e.
@@ -304,30 +335,6 @@ std::vector<std::uint64_t> seeds(const Placed& placed) {
   return list;
 }
 
-// Whatever holds a list, at any depth, becomes several without one: the product of all lists.
-// Numbers are written in one way, so that equal effects have equal texts.
-std::vector<Json> expanded(const Json& value) {
-  if (value.is_number()) return {value.get<double>() + 0.0};
-  std::vector<Json> all;
-  if (value.is_array()) {
-    for (const Json& item : value)
-      for (Json& one : expanded(item)) all.push_back(std::move(one));
-    return all;
-  }
-  if (!value.is_object()) return {value};
-  all.push_back(Json::object());
-  for (const auto& [key, member] : value.items()) {
-    std::vector<Json> product;
-    for (const Json& choice : expanded(member))
-      for (Json one : all) {
-        one[key] = choice;
-        product.push_back(std::move(one));
-      }
-    all = std::move(product);
-  }
-  return all;
-}
-
 std::vector<std::string> effects(const Placed& placed) {
   std::vector<std::string> texts;
   for (Json& one : expanded(placed.value)) {
@@ -379,6 +386,7 @@ Grid parse_grid(std::string_view text, const std::string& file, const Memory& me
   Grid grid{.name = document.value("name", ""), .grids = {}};
   for (const Source& source : all) {
     examiner.fits(source);
+    examiner.go_together(source);
     auto tau_max = examiner.tau_max(source);
     examiner.sampled(source, tau_max);
     examiner.in_step(source, tau_max);

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "schema/effects.hpp"
+
 namespace haff::schema {
 
 namespace {
@@ -43,7 +45,7 @@ Job equilibration_of(const Job& cooling) {
   job.kind = Kind::equilibration;
   job.e = 1;
   job.sample_every = equilibration_sample_every;
-  job.effects = "{}";
+  job.effects = effects_of_equilibration(cooling.effects);
   job.observables = {"laguerre", "temperature"};
   job.profiles_every = std::nullopt;
   job.fields_at.clear();

@@ -15,12 +15,14 @@ namespace {
 
 template <class Law = engine::ConstantRestitution>
 void agrees(std::uint32_t particles, double n, double restitution, std::uint64_t seed, double tau,
-            engine::Prediction prediction, const engine::RestitutionLaw& law = {}) {
+            engine::Prediction prediction, const engine::RestitutionLaw& law = {},
+            const std::map<std::string, engine::Parameters>& effects = {}) {
   CAPTURE(particles);
   CAPTURE(n);
   CAPTURE(restitution);
   CAPTURE(seed);
-  const engine::Model model{.restitution = restitution, .law = law};
+  const engine::Model model{
+      .restitution = restitution, .law = law, .effects = effects, .seed = seed};
   const engine::State start = engine::initial_state(n, particles, seed);
   engine::Simulation gas(model, start, prediction);
   tests::Reference<Law> reference(model, start);
@@ -93,4 +95,19 @@ TEST_CASE("laws of restitution equal the reference") {
     agrees<engine::ContactDuration>(70, 0.4, e, 7, 12, engine::Prediction::scalar, tc);
     agrees<engine::ContactDuration>(8, 0.5, e, 3, 40, engine::Prediction::simd, tc);
   }
+  const engine::RestitutionLaw viscoelastic{"viscoelastic", {{"A", 0.3}}};
+  agrees<engine::Viscoelastic>(70, 0.4, 1, 7, 42, engine::Prediction::simd, viscoelastic);
+  agrees<engine::Viscoelastic>(8, 0.5, 1, 3, 40, engine::Prediction::scalar, viscoelastic);
+}
+
+TEST_CASE("actions equal the reference") {
+  const auto acted = [](const std::map<std::string, engine::Parameters>& effects) {
+    agrees(70, 0.4, 0.8, 7, 32, engine::Prediction::simd, {}, effects);
+    agrees(70, 0.4, 0.8, 7, 12, engine::Prediction::scalar, {}, effects);
+    agrees(8, 0.5, 0.9, 3, 40, engine::Prediction::simd, {}, effects);
+  };
+  acted({{"shuffle", {{"every", 1}}}});
+  acted({{"shuffle", {{"every", 0.7}}}});
+  acted({{"thermostat", {{"rate", 0.5}}}});
+  acted({{"shuffle", {{"every", 3}}}, {"thermostat", {{"rate", 0.5}}}});
 }

@@ -74,6 +74,14 @@ TEST_CASE("effects: what is wrong is named") {
         "g.json: /effects/restitution/0/t_c/1: -1 is not accepted; expected a number above 0");
 }
 
+TEST_CASE("effects: a shuffle, swept") {
+  CHECK(effects(R"({"shuffle": {"every": [1, 5]}})") ==
+        Texts{R"({"shuffle":{"every":1.0}})", R"({"shuffle":{"every":5.0}})"});
+  CHECK(complaint(R"({"shuffle": {}})") ==
+        "g.json: /effects/shuffle: has no \"every\"; expected an interval between shuffles "
+        "[collisions per particle], above 0, or a list of them");
+}
+
 TEST_CASE("effects: part of a job's identity, not of its equilibration's") {
   Job plain{.e = 0.8, .n = 0.4, .particles = 1000, .seed = 1};
   Job softened = plain;

@@ -2,8 +2,8 @@
 // real engine must agree with it event by event and bit by bit.
 //
 // It shares the definition of a contact, a collision and a synchronization (engine/contact.hpp,
-// engine/synchronize.hpp), the laws of restitution, and nothing else: no cells, no calendar, no
-// SIMD.
+// engine/synchronize.hpp), the laws of restitution and actions, and nothing else: no cells, no
+// calendar, no SIMD.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/actions.hpp"
 #include "engine/laws.hpp"
 #include "engine/simulation.hpp"
 #include "engine/synchronize.hpp"
@@ -24,6 +25,7 @@ class Reference {
       : law_(model.restitution, model.law.parameters),
         box_(state.box),
         particles_(state.particles()),
+        actions_(engine::actions_of(model, state)),
         clock_(engine::to_clock(state)) {
     engine::copy_particles(state, particles_);
     law_.recall(state);
@@ -72,6 +74,7 @@ class Reference {
   engine::State state() const {
     engine::State state = engine::to_state(particles_, clock_, box_);
     law_.store(state);
+    for (const auto& action : actions_) action->store(state);
     return state;
   }
   double time() const { return clock_.time(); }
@@ -86,17 +89,24 @@ class Reference {
     engine::audit(particles_, clock_, 1e-9);  // sigma: boxes are small, periods may be long
     law_.before_synchronization(particles_, clock_.now);
     engine::synchronize(particles_, clock_, box_);
+    engine::act(actions_, particles_, clock_);
     law_.scale(clock_.exponent);
-    next_ = engine::next_synchronization(clock_.collisions,
-                                         static_cast<std::uint32_t>(particles_.size()));
+    next_ = next_stop();
+  }
+
+  std::int64_t next_stop() const {
+    auto next = engine::next_synchronization(clock_.collisions, particles_.size());
+    for (const auto& action : actions_)
+      next = std::min(next, action->next(clock_.collisions, particles_.size()));
+    return next;
   }
 
   Law law_;
   engine::Box box_;
   std::vector<engine::Particle> particles_;
+  std::vector<std::unique_ptr<engine::Action>> actions_;
   engine::Clock clock_;
-  std::int64_t next_ = engine::next_synchronization(clock_.collisions,
-                                                    static_cast<std::uint32_t>(particles_.size()));
+  std::int64_t next_ = next_stop();
 };
 
 }  // namespace haff::tests
