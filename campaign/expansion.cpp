@@ -29,7 +29,7 @@ class Plan {
 
 template <class Visit>
 void for_each_job(const schema::SubGrid& grid, Visit&& visit) {
-  for (std::size_t k = 0; k < grid.e.size(); ++k)
+  for (std::size_t k = 0; k < grid.tau_max.size(); ++k)  // one for each e
     for (const double n : grid.n)
       for (const std::uint32_t particles : grid.particles)
         for (const double equilibrate : grid.equilibrate)
@@ -38,7 +38,7 @@ void for_each_job(const schema::SubGrid& grid, Visit&& visit) {
               for (const std::uint64_t seed : grid.seeds) {
                 schema::Job job;
                 job.kind = schema::Kind::cooling;
-                job.e = grid.e[k];
+                job.e = grid.e.empty() ? std::nullopt : std::optional(grid.e[k]);
                 job.n = n;
                 job.particles = particles;
                 job.seed = seed;

@@ -26,9 +26,9 @@ std::string head(const engine::State& state, const schema::JobRow& row) {
   return fmt::format(
       "{0}\nLattice=\"{1} 0 0 0 {1} 0 0 0 {1}\" Origin=\"0 0 0\" pbc=\"T T T\" "
       "Properties=id:I:1:pos:R:3:velo:R:3:radius:R:1 "
-      "job_id={2} e={3} n={4} seed={5} tau={6} Time={7}\n",
-      state.particles(), state.box, row.job_id, row.job.e, row.job.n, row.job.seed, tau,
-      state.time);
+      "job_id={2}{3} n={4} seed={5} tau={6} Time={7}\n",
+      state.particles(), state.box, row.job_id, row.job.e ? fmt::format(" e={}", *row.job.e) : "",
+      row.job.n, row.job.seed, tau, state.time);
 }
 
 std::vector<std::size_t> places_by_id(const engine::State& state) {

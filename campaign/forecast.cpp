@@ -38,7 +38,7 @@ int number(schema::Kind kind) {
 Forecast::Forecast(const std::vector<schema::JobRow>& known) {
   for (const schema::JobRow& row : known) {
     const auto& job = row.job;
-    for (const Gas& gas : {Gas{job.n, job.particles, number(job.kind), job.e},
+    for (const Gas& gas : {Gas{job.n, job.particles, number(job.kind), job.e.value_or(any_e)},
                            Gas{job.n, job.particles, number(job.kind), any_e},
                            Gas{job.n, job.particles, any_kind, any_e}}) {
       known_[gas].collisions += static_cast<double>(row.progress.collisions);
@@ -48,7 +48,7 @@ Forecast::Forecast(const std::vector<schema::JobRow>& known) {
 }
 
 double Forecast::collisions_per_second(const schema::Job& job) {
-  for (const Gas& gas : {Gas{job.n, job.particles, number(job.kind), job.e},
+  for (const Gas& gas : {Gas{job.n, job.particles, number(job.kind), job.e.value_or(any_e)},
                          Gas{job.n, job.particles, number(job.kind), any_e},
                          Gas{job.n, job.particles, any_kind, any_e}}) {
     const auto found = known_.find(gas);

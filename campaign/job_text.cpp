@@ -7,8 +7,9 @@ namespace haff::campaign {
 std::string describe(const schema::Job& job) {
   const std::string gas = fmt::format("n={} N={} seed {}", job.n, job.particles, job.seed);
   const std::string effects = job.effects == "{}" ? "" : " " + job.effects;
-  return job.kind == schema::Kind::cooling ? fmt::format("cooling e={} {}{}", job.e, gas, effects)
-                                           : "equilibration " + gas;
+  if (job.kind == schema::Kind::equilibration) return "equilibration " + gas;
+  const std::string e = job.e ? fmt::format("e={} ", *job.e) : "";
+  return fmt::format("cooling {}{}{}", e, gas, effects);
 }
 
 std::string number_text(double value) {

@@ -37,8 +37,9 @@ void measure_temperature(schema::Sample& sample, double temperature, double viri
   if (!previous || !previous->temperature) return;
   const double elapsed = sample.time - previous->time;
   const double before = *previous->temperature;
-  sample.gamma_ratio = if_finite(
-      analysis::gamma_ratio(before, temperature, sample.tau - previous->tau, job.e, job.d));
+  if (cools_by_haff(job))
+    sample.gamma_ratio = if_finite(
+        analysis::gamma_ratio(before, temperature, sample.tau - previous->tau, *job.e, job.d));
   sample.collision_rate = if_finite(analysis::collision_rate(collisions, job.particles, elapsed));
   sample.pressure = if_finite(analysis::pressure(job.n, 0.5 * (before + temperature), virial,
                                                  job.particles, elapsed, job.d));
@@ -136,6 +137,7 @@ Views view(const engine::Simulation& gas, const schema::Job& job, schema::Sample
 }
 
 schema::Results results(const std::vector<schema::Sample>& samples, const schema::Job& job) {
+  if (!cools_by_haff(job)) return {};
   std::vector<double> tau;
   std::vector<double> temperature;
   for (const schema::Sample& sample : samples) {
@@ -143,7 +145,7 @@ schema::Results results(const std::vector<schema::Sample>& samples, const schema
     tau.push_back(sample.tau);
     temperature.push_back(*sample.temperature);
   }
-  const auto tau_c = analysis::tau_c(tau, temperature, job.e, job.d);
+  const auto tau_c = analysis::tau_c(tau, temperature, *job.e, job.d);
   if (!tau_c) return {};
 
   const auto after = std::lower_bound(

@@ -5,7 +5,7 @@
 namespace haff::campaign {
 
 engine::Model model_of(const schema::Job& job) {
-  engine::Model model{.restitution = job.e, .seed = job.seed};
+  engine::Model model{.restitution = job.e.value_or(1), .seed = job.seed};
   const auto effects = nlohmann::json::parse(job.effects);
   for (const auto& [effect, asked] : effects.items()) {
     const bool is_law = effect == "restitution";

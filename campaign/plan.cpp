@@ -34,7 +34,7 @@ struct Group {
 };
 
 // Equilibrations first, then by e, n, N.
-using GroupKey = std::tuple<schema::Kind, double, double, std::uint32_t, double>;
+using GroupKey = std::tuple<schema::Kind, std::optional<double>, double, std::uint32_t, double>;
 
 GroupKey group_of(const Planned& plan) {
   return {plan.job.kind, plan.job.e, plan.job.n, plan.job.particles, plan.tau_max};
@@ -92,8 +92,8 @@ void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcome
                    {"disk"}});
   for (auto& [key, group] : groups) {
     const auto& [kind, e, n, particles, tau_max] = key;
-    table.add({std::string(name(kind)), number_text(e), number_text(n), count_text(particles),
-               number_text(tau_max), count_text(group.jobs),
+    table.add({std::string(name(kind)), e ? number_text(*e) : no_value, number_text(n),
+               count_text(particles), number_text(tau_max), count_text(group.jobs),
                count_text(group.outcomes[Outcome::added]),
                count_text(group.outcomes[Outcome::extended]), duration_text(group.cpu_seconds),
                bytes_text(group.disk_bytes)});

@@ -16,8 +16,8 @@ namespace haff::campaign {
 namespace {
 
 // Equal for realizations of one series, and ordered as tables are.
-using Key = std::tuple<int, double, std::int64_t, double, double, double, std::string, std::string,
-                       std::string, std::optional<double>, std::string>;
+using Key = std::tuple<int, double, std::int64_t, std::optional<double>, double, double,
+                       std::string, std::string, std::string, std::optional<double>, std::string>;
 
 std::string fields_at(const schema::Job& job) {
   return job.fields_at.empty() ? "" : schema::fields_at_text(job.fields_at);
@@ -60,7 +60,7 @@ std::map<Key, TauC> mean_tau_c(const schema::Reader& store) {
     const Key key{static_cast<int>(integer(0)),
                   real(1),
                   integer(2),
-                  real(3),
+                  real_or_null((*row)[3]),
                   real(4),
                   real(5),
                   text(6),
@@ -86,7 +86,7 @@ std::string tau_c_text(const Series& series) {
 class Rest {
  public:
   explicit Rest(const std::vector<Series>& list) {
-    std::set<std::tuple<double, double, std::uint32_t>> gases;
+    std::set<std::tuple<std::optional<double>, double, std::uint32_t>> gases;
     for (const Series& series : list) {
       gases.emplace(series.job.e, series.job.n, series.job.particles);
       for (const auto& [key, value] : values(series.job)) values_[key].insert(value);
@@ -164,7 +164,7 @@ std::string series_table(const std::vector<Series>& list) {
     std::vector<std::string> cells{
         number_text(series.job.n),
         count_text(series.job.particles),
-        number_text(series.job.e),
+        series.job.e ? number_text(*series.job.e) : no_value,
         count_text(series.planned),
         count_text(series.done),
         fmt::format("{:.1f}", series.tau),

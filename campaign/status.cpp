@@ -176,7 +176,7 @@ ordered_json or_null(const std::optional<T>& value) {
 ordered_json physics_json(const schema::Job& job) {
   return {{"kind", name(job.kind)},
           {"d", job.d},
-          {"e", job.e},
+          {"e", or_null(job.e)},
           {"n", job.n},
           {"particles", job.particles},
           {"equilibrate", job.equilibrate},

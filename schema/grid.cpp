@@ -68,6 +68,8 @@ class Source {
 
   Placed operator[](const std::string& key) const { return find(key).value(); }
 
+  std::vector<double> e() const { return find("e") ? list<double>("e") : std::vector<double>(); }
+
   template <class Number>
   std::vector<Number> list(const std::string& key) const {
     std::vector<Number> numbers;
@@ -181,15 +183,23 @@ class Examiner {
 
   void go_together(const Source& source) const {
     const Placed effects = source["effects"];
-    for (const Json& one : expanded(effects.value))
+    for (const Json& one : expanded(effects.value)) {
       if (const auto why = nonsense(one)) throw fault(file_, effects.where, *why);
+      has_one_restitution(source, one);
+      if (one.contains("thermostat")) loses_energy(source);
+      if (one.contains("shuffle")) collides_between_shuffles(source, one);
+    }
   }
 
   // How far each e is run, in the order of e.
   std::vector<double> tau_max(const Source& source) const {
     const Placed placed = source["tau_max"];
-    const auto e = source.list<double>("e");
-    if (placed.value.is_number()) return std::vector<double>(e.size(), placed.value.get<double>());
+    const auto e = source.e();
+    if (placed.value.is_number())
+      return std::vector<double>(std::max<std::size_t>(e.size(), 1), placed.value.get<double>());
+    if (e.empty())
+      throw fault(file_, placed.where,
+                  "is a map from e, which a viscoelastic gas does not have; expected a number");
     return matched(placed, e);
   }
 
@@ -201,7 +211,7 @@ class Examiner {
       std::vector<double> asked;
       for (const Source& source : sources)
         if (source["tau_max"].where == placed.where) {
-          const auto e = source.list<double>("e");
+          const auto e = source.e();
           asked.insert(asked.end(), e.begin(), e.end());
         }
       for (const auto& [key, value] : placed.value.items())
@@ -272,6 +282,43 @@ class Examiner {
                     " make a box of side L = " + rounded(std::cbrt(N / n)) +
                     " sigma; expected L >= " + text(smallest_box) +
                     " sigma, N >= " + text(std::ceil(std::pow(smallest_box, 3) * n)));
+  }
+
+  // A constant e, or a law that gives every collision its own.
+  void has_one_restitution(const Source& source, const Json& effects) const {
+    const auto e = source.find("e");
+    const bool has_own = effects.value("/restitution/law"_json_pointer, "") == "viscoelastic";
+    if (e && has_own)
+      throw fault(
+          file_, e->where,
+          shown(e->value) +
+              " does not go together with the viscoelastic law, which gives every collision "
+              "an e of its own; expected one of the two");
+    if (!e && !has_own)
+      throw fault(
+          file_, source.where(),
+          "has no \"e\"" +
+              std::string(!source.where().empty() ? ", and there is none beside \"grids\"" : "") +
+              "; expected " + description("e"));
+  }
+
+  void loses_energy(const Source& source) const {
+    const auto e = source.find("e");
+    if (!e) return;
+    for (const Placed& item : items(*e))
+      if (item.value.get<double>() == 1)
+        throw fault(file_, item.where,
+                    "1 and a thermostat do not go together: an elastic gas would grow hotter "
+                    "without end; expected e < 1");
+  }
+
+  void collides_between_shuffles(const Source& source, const Json& effects) const {
+    const double every = effects["shuffle"]["every"].get<double>();
+    for (const double N : source.list<double>("N"))
+      if (every * N < 2)
+        throw fault(file_, source["effects"].where / "shuffle" / "every",
+                    text(every) + " is less than one collision of " + text(N) +
+                        " particles; expected at least 2/N = " + rounded(2 / N));
   }
 
   void collides_between_samples(const Source& source, double N, double sample_every) const {
@@ -348,7 +395,7 @@ std::vector<std::string> effects(const Placed& placed) {
 }
 
 SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {
-  SubGrid grid{.e = source.list<double>("e"),
+  SubGrid grid{.e = source.e(),
                .n = source.list<double>("n"),
                .particles = source.list<std::uint32_t>("N"),
                .seeds = seeds(source["seeds"]),
@@ -380,13 +427,15 @@ Grid parse_grid(std::string_view text, const std::string& file, const Memory& me
   const Examiner examiner(file, memory);
   examiner.no_repeats(document, Pointer());
   const auto all = sources(document);
-  for (const Source& source : all) examiner.complete(source);
+  for (const Source& source : all) {
+    examiner.complete(source);
+    examiner.go_together(source);
+  }
   examiner.no_strays(all);
 
   Grid grid{.name = document.value("name", ""), .grids = {}};
   for (const Source& source : all) {
     examiner.fits(source);
-    examiner.go_together(source);
     auto tau_max = examiner.tau_max(source);
     examiner.sampled(source, tau_max);
     examiner.in_step(source, tau_max);

@@ -17,14 +17,14 @@ struct GridError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// One entry of "grids" with all defaults filled in: the product of these lists. No list is empty
-// or holds a value twice.
+// One entry of "grids" with all defaults filled in: the product of these lists. No list but e is
+// empty or holds a value twice.
 struct SubGrid {
-  std::vector<double> e;
+  std::vector<double> e;                 // empty where the law of restitution has none
   std::vector<double> n;                 // [sigma^-3]
   std::vector<std::uint32_t> particles;  // N
   std::vector<std::uint64_t> seeds;
-  std::vector<double> tau_max;  // as long as e: how far each e is run [collisions per particle]
+  std::vector<double> tau_max;  // as long as e, or one: how far each is run [collisions/particle]
   std::vector<double> sample_every;
   std::vector<double> equilibrate;
   double checkpoint_every = 0;

@@ -54,7 +54,7 @@ Job equilibration_of(const Job& cooling) {
 
 std::string identity(const Job& job) {
   return R"({"d":)" + std::to_string(job.d) +            //
-         R"(,"e":)" + real(job.e) +                      //
+         R"(,"e":)" + (job.e ? real(*job.e) : "null") +  //
          R"(,"effects":)" + job.effects +                //
          R"(,"equilibrate":)" + real(job.equilibrate) +  //
          (job.fields_at.empty() ? "" : R"(,"fields_at":)" + fields_at_text(job.fields_at)) +
@@ -66,6 +66,10 @@ std::string identity(const Job& job) {
          (job.profiles_every ? R"(,"profiles_every":)" + real(*job.profiles_every) : "") +
          R"(,"sample_every":)" + real(job.sample_every) +  //
          R"(,"seed":)" + std::to_string(job.seed) + "}";
+}
+
+bool cools_by_haff(const Job& job) {
+  return job.e.has_value() && !nlohmann::json::parse(job.effects).contains("thermostat");
 }
 
 bool is_profile(std::string_view observable) {

@@ -46,7 +46,8 @@ Status status_named(std::string_view name);  // throws std::invalid_argument
 struct Job {
   Kind kind = Kind::cooling;
   int d = 3;                    // dimension
-  double e = 1;                 // normal restitution coefficient; 1 for an equilibration
+  std::optional<double> e = 1;  // normal restitution coefficient; 1 for an equilibration; empty
+                                // where the law of restitution has none (viscoelastic)
   double n = 0;                 // number density [sigma^-d]
   std::uint32_t particles = 0;  // N
   std::uint64_t seed = 0;       // realization, 0 ... 2^53 - 1
@@ -76,6 +77,10 @@ Job equilibration_of(const Job& cooling);
 // not a hash of it: two jobs are the same exactly if their texts are equal, a person can read
 // what differs, and the 200 bytes it takes are nothing beside a job's samples.
 std::string identity(const Job& job);
+
+// Whether Haff's law says how it cools, so that gamma_ratio and tau_c have a meaning: a constant e
+// is what it loses energy by, and it gains none.
+bool cools_by_haff(const Job& job);
 
 // Whether an observable is taken every profiles_every, at fields_at, or else with every sample.
 bool is_profile(std::string_view observable);

@@ -5,7 +5,7 @@ namespace haff::schema {
 Job job_of(const SQLite::Statement& row) {
   return {.kind = kind_named(text(row, "kind")),
           .d = static_cast<int>(integer(row, "d")),
-          .e = real(row, "e"),
+          .e = optional_real(row, "e"),
           .n = real(row, "n"),
           .particles = static_cast<std::uint32_t>(integer(row, "particles")),
           .seed = static_cast<std::uint64_t>(integer(row, "seed")),

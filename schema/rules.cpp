@@ -187,6 +187,9 @@ GridError explanation(const Json& document, const std::string& file, const Point
     return fault(file, where / *key,
                  "unknown key; " + suggestion(*key, keys((*rule)["properties"])));
 
+  // A law of restitution among the effects may take the place of e (Examiner in grid.cpp).
+  if (value.is_object() && where.empty() && !value.contains("e") && !value.contains("effects"))
+    return fault(file, where, "has no \"e\"; expected " + description("e"));
   if (value.is_object() && where.empty())
     for (const std::string& key : required_keys())
       if (!value.contains(key))

@@ -13,7 +13,7 @@ namespace haff::schema {
 // one, the key that is missing, or the value and what the schema describes in its place.
 void check_rules(const Json& document, const std::string& file);
 
-// Keys that every grid must have, here or among the defaults.
+// Keys that every grid must have, here or among the defaults; e is another matter.
 std::vector<std::string> required_keys();
 
 // What the schema says about the key of a grid, e.g. "a number of particles, ...".

@@ -52,7 +52,7 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
   statement.bind(":identity", identity(job));
   statement.bind(":kind", std::string(name(job.kind)));
   statement.bind(":d", job.d);
-  statement.bind(":e", job.e);
+  bind(statement, ":e", job.e);
   statement.bind(":n", job.n);
   statement.bind(":particles", job.particles);
   statement.bind(":seed", static_cast<std::int64_t>(job.seed));

@@ -27,7 +27,7 @@ schema::Job job(double e, std::uint32_t particles = 1000) {
 }
 
 engine::Simulation gas(const schema::Job& job) {
-  return engine::Simulation({.restitution = job.e},
+  return engine::Simulation({.restitution = *job.e},
                             engine::initial_state(job.n, job.particles, job.seed));
 }
 

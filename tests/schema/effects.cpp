@@ -82,6 +82,49 @@ TEST_CASE("effects: a shuffle, swept") {
         "[collisions per particle], above 0, or a list of them");
 }
 
+TEST_CASE("effects: viscoelastic spheres have no e") {
+  const auto asked = [](const std::string& keys) {
+    return parse_grid(R"({"n": 0.4, "N": 1000, "seeds": 1, "tau_max": 90)" + keys + "}", "g.json",
+                      {.bytes = 8e9, .bytes_per_particle = 200});
+  };
+  const std::string law = R"({"restitution": {"law": "viscoelastic", "A": [0.1, 0.2]}})";
+  const SubGrid grid = asked(R"(, "effects": )" + law).grids.at(0);
+  CHECK(grid.e.empty());
+  CHECK(grid.tau_max == std::vector{90.0});
+  CHECK(grid.effects == Texts{R"({"restitution":{"A":0.1,"law":"viscoelastic"}})",
+                              R"({"restitution":{"A":0.2,"law":"viscoelastic"}})"});
+  CHECK(complaint(law) ==
+        "g.json: /e: 0.8 does not go together with the viscoelastic law, which gives every "
+        "collision an e of its own; expected one of the two");
+  CHECK_THROWS_WITH_AS(asked(R"(, "effects": {"shuffle": {"every": 1}})"),
+                       "g.json: has no \"e\"; expected a normal restitution coefficient, from 0 to "
+                       "1, or a list of them",
+                       GridError);
+  CHECK(complaint(R"({"restitution": {"law": "viscoelastic", "A": 0.7}})") ==
+        "g.json: /effects/restitution/A: 0.7 is not accepted; expected a strength of viscous "
+        "dissipation [(sqrt(E(0)/m))^(-1/5)], above 0 and below 0.67, or a list of them");
+}
+
+TEST_CASE("effects: combinations without sense are refused by name") {
+  CHECK_THROWS_WITH_AS(
+      parse_grid(R"({"e": [0.9, 1], "n": 0.4, "N": 1000, "seeds": 1, "tau_max": 90,
+                     "effects": {"thermostat": {"rate": 1}}})",
+                 "g.json", {.bytes = 8e9, .bytes_per_particle = 200}),
+      "g.json: /e/1: 1 and a thermostat do not go together: an elastic gas would grow hotter "
+      "without end; expected e < 1",
+      GridError);
+  CHECK(complaint(R"({"shuffle": {"every": 0.001}})") ==
+        "g.json: /effects/shuffle/every: 0.001 is less than one collision of 1000 particles; "
+        "expected at least 2/N = 0.002");
+}
+
+TEST_CASE("effects: Haff's law is that of gases with an e which nobody heats") {
+  CHECK(cools_by_haff({.e = 0.8}));
+  CHECK(cools_by_haff({.e = 0.8, .effects = R"({"shuffle":{"every":1.0}})"}));
+  CHECK_FALSE(cools_by_haff({.e = 0.8, .effects = R"({"thermostat":{"rate":1.0}})"}));
+  CHECK_FALSE(cools_by_haff({.e = std::nullopt}));
+}
+
 TEST_CASE("effects: part of a job's identity, not of its equilibration's") {
   Job plain{.e = 0.8, .n = 0.4, .particles = 1000, .seed = 1};
   Job softened = plain;

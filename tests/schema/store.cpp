@@ -122,9 +122,9 @@ TEST_CASE("a plan that fails adds nothing") {
 TEST_CASE("jobs are listed by kind, physics and seed, however they were planned") {
   Store store = Store::create(":memory:");
   store.add(plan({cooling(0.9, 2), cooling(0.8, 10), cooling(0.9, 1), cooling(0.8, 9)}));
-  std::vector<std::pair<double, std::uint64_t>> order;
+  std::vector<std::pair<std::optional<double>, std::uint64_t>> order;
   for (const JobRow& row : store.jobs()) order.emplace_back(row.job.e, row.job.seed);
-  CHECK(order == std::vector<std::pair<double, std::uint64_t>>{
+  CHECK(order == std::vector<std::pair<std::optional<double>, std::uint64_t>>{
                      {1, 1}, {1, 2}, {1, 9}, {1, 10}, {0.8, 9}, {0.8, 10}, {0.9, 1}, {0.9, 2}});
 }
 
@@ -480,4 +480,31 @@ TEST_CASE("a disk that takes no more undoes the commit, says so, and leaves the 
   CHECK(Reader(folder / "a.db").faults().empty());
   working.store.commit(lease, large);
   CHECK(working.store.checkpoint(lease.job_id)->tau == 20);
+}
+
+TEST_CASE("a gas without e is stored as it is, and averaged") {
+  Store store = Store::create(":memory:");
+  std::vector<Job> jobs{cooling(0.8, 1), cooling(0.8, 2)};
+  for (Job& job : jobs) {
+    job.e = std::nullopt;
+    job.effects = R"({"restitution":{"A":0.1,"law":"viscoelastic"}})";
+  }
+  store.add(plan(jobs));
+  equilibrate(store);
+  for (const double temperature : {0.5, 0.7}) {
+    const auto claim = store.claim(me, "test");
+    CHECK_FALSE(claim->job.e);
+    complete(store, *claim, {{.tau = 0, .temperature = temperature}}, Results{});
+  }
+  auto rows = store.query(
+      "SELECT mean_series.e, temperature, gamma_ratio, tau_c FROM mean_series JOIN mean_tau_c "
+      "USING (effects)");
+  const auto row = rows.next().value();
+  CHECK(std::holds_alternative<std::monostate>(row[0]));
+  CHECK(std::get<double>(row[1]) == doctest::Approx(0.6));
+  CHECK(std::holds_alternative<std::monostate>(row[2]));
+  CHECK(std::holds_alternative<std::monostate>(row[3]));
+  auto found = store.query(
+      "SELECT count(*) FROM job_effects WHERE effect = 'restitution' AND value = 'viscoelastic'");
+  CHECK(std::get<std::int64_t>(found.next().value()[0]) == 2);
 }

@@ -46,7 +46,7 @@ class SyntheticGas {
   std::vector<schema::Sample> samples() {
     std::vector<double> tau;
     for (int k = 0; k * job_.sample_every <= tau_max_; ++k) tau.push_back(k * job_.sample_every);
-    const auto theory = analysis::energy_equation({.e = job_.e, .n = job_.n}, tau);
+    const auto theory = analysis::energy_equation({.e = *job_.e, .n = job_.n}, tau);
     const double noise = 1 / std::sqrt(static_cast<double>(job_.particles));
 
     std::vector<schema::Sample> all;
@@ -59,16 +59,17 @@ class SyntheticGas {
       schema::Sample sample{.tau = tau[k], .time = tau[k] / 5, .temperature = energy * 2 / 3};
       if (k > 0) {
         sample.gamma_ratio =
-            analysis::gamma_ratio(before, energy, job_.sample_every, job_.e) + noise * gaussian_();
+            analysis::gamma_ratio(before, energy, job_.sample_every, *job_.e) + noise * gaussian_();
       }
       before = energy;
-      const double a2 = analysis::boltzmann_a2(tau[k], job_.e) * std::exp(-3 * correlated);
+      const double a2 = analysis::boltzmann_a2(tau[k], *job_.e) * std::exp(-3 * correlated);
       sample.a2 = a2 + 0.73 * noise * gaussian_();
       sample.a3 = 0.35 * a2 + 0.68 * noise * gaussian_();
       sample.a4 = -0.1 * a2 + 0.64 * noise * gaussian_();
       if (job_.profiles_every && std::fmod(tau[k], *job_.profiles_every) == 0) {
-        sample.correlation_trace = analysis::correlation_trace({.e = job_.e, .n = job_.n}, tau[k]) *
-                                   (1 + noise * gaussian_());
+        sample.correlation_trace =
+            analysis::correlation_trace({.e = *job_.e, .n = job_.n}, tau[k]) *
+            (1 + noise * gaussian_());
         sample.largest_cluster = std::min(1.0, 1e-4 * std::exp(0.05 * tau[k]));
       }
       all.push_back(sample);
@@ -79,7 +80,7 @@ class SyntheticGas {
  private:
   schema::Job job_;
   double tau_max_;
-  Gaussian gaussian_{job_.seed * 1000003 + static_cast<std::uint64_t>(job_.e * 1e6)};
+  Gaussian gaussian_{job_.seed * 1000003 + static_cast<std::uint64_t>(*job_.e * 1e6)};
 };
 
 // What is seen of such a gas where profiles are taken: incompressible theory, with errors.
@@ -104,7 +105,7 @@ class SyntheticProfiles {
     std::vector<schema::Field> all;
     for (const double tau : job_.fields_at) {
       constexpr int cells = 16;
-      const double v0 = std::sqrt(2 * analysis::haff_temperature(tau, job_.e));
+      const double v0 = std::sqrt(2 * analysis::haff_temperature(tau, *job_.e));
       schema::Field u{
           .name = "velocity", .tau = tau, .cells = cells, .components = 3, .box = box()};
       schema::Field n{.name = "density", .tau = tau, .cells = cells, .box = box()};
@@ -127,7 +128,7 @@ class SyntheticProfiles {
 
   schema::Profile rho(double tau) {
     schema::Profile profile{.name = "rho", .tau = tau};
-    const double a2 = analysis::boltzmann_a2(tau, job_.e);
+    const double a2 = analysis::boltzmann_a2(tau, *job_.e);
     for (int i = 0; i < 50; ++i) {
       const double c = 0.05 + 0.1 * i, c2 = c * c;
       const double expected = std::exp(-c2) * (1 + a2 * (0.5 * c2 * c2 - 2.5 * c2 + 15.0 / 8));
@@ -140,9 +141,9 @@ class SyntheticProfiles {
 
   schema::Profile correlation(const std::string& name, double tau) {
     schema::Profile profile{.name = name, .tau = tau};
-    const double noise = analysis::haff_temperature(tau, job_.e) * 1e-4;
+    const double noise = analysis::haff_temperature(tau, *job_.e) * 1e-4;
     for (double r = 1.5; r <= box() / 2; r += 1) {
-      const auto theory = analysis::velocity_correlation({.e = job_.e, .n = job_.n}, r, tau,
+      const auto theory = analysis::velocity_correlation({.e = *job_.e, .n = job_.n}, r, tau,
                                                          analysis::Fluid::incompressible);
       profile.x.push_back(r);
       profile.value.push_back((name == "G_parallel" ? theory.parallel : theory.perpendicular) +
@@ -190,7 +191,7 @@ inline void add_finished(schema::Store& store, schema::Job job, int seeds, doubl
         tau.push_back(sample.tau);
         temperature.push_back(*sample.temperature);
       }
-      results = schema::Results{.tau_c = analysis::tau_c(tau, temperature, claim->job.e)};
+      results = schema::Results{.tau_c = analysis::tau_c(tau, temperature, *claim->job.e)};
     }
     store.finish(claim->lease, last, results, claim->tau_max);
   }
