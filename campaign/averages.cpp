@@ -29,6 +29,10 @@ std::int64_t integer(const schema::Value& value) {
 // Rows of smooth spheres with constant restitution.
 constexpr const char* plain_gas = " d = 3 AND effects = '{}'";
 
+// Of the same with velocities shuffled.
+constexpr const char* shuffled_gas =
+    " d = 3 AND (SELECT group_concat(key) FROM json_each(effects)) = 'shuffle'";
+
 // What tells series apart: columns 4 to 9 those of the same gas that were prepared or sampled in
 // other ways.
 constexpr const char* key_columns =
@@ -40,11 +44,11 @@ schema::Row key_of(const schema::Row& row) {
   return {row.begin(), row.begin() + keys};
 }
 
-std::map<schema::Row, MeanSeries> read_means(const schema::Reader& store) {
+std::map<schema::Row, MeanSeries> read_means(const schema::Reader& store, const char* gas) {
   schema::Query rows = store.query(
       fmt::format("SELECT {}, realizations, tau, temperature, temperature_se, gamma_ratio,"
                   " gamma_ratio_se, a2, a2_se, a3, a3_se, a4, a4_se FROM mean_series WHERE {}",
-                  key_columns, plain_gas));
+                  key_columns, gas));
   std::map<schema::Row, MeanSeries> all;
   while (const auto row = rows.next()) {
     const auto& r = *row;
@@ -185,11 +189,13 @@ const MeanProfile* MeanSeries::profile(const std::string& name, double at) const
 }
 
 Averages read_averages(const schema::Reader& store) {
-  auto all = read_means(store);
+  auto all = read_means(store, plain_gas);
   read_profiles(store, all);
   read_runs(store, all);
-  Averages averages{.series = {}, .velocity_field = read_velocity_field(store)};
+  Averages averages{.series = {}, .shuffled = {}, .velocity_field = read_velocity_field(store)};
   for (auto& entry : all) averages.series.push_back(std::move(entry.second));
+  for (auto& entry : read_means(store, shuffled_gas))
+    averages.shuffled.push_back(std::move(entry.second));
   std::ranges::stable_sort(averages.series, {},
                            [](const MeanSeries& s) { return std::tuple(s.n, s.particles, s.e); });
   return averages;

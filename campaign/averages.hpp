@@ -1,6 +1,6 @@
 // Averages over realizations, as the figures need them: the store's view mean_series in memory,
 // with the realizations it averages, for smooth spheres with constant restitution in three
-// dimensions.
+// dimensions; and the means of those that are shuffled, too.
 #pragma once
 
 #include <cstdint>
@@ -82,6 +82,7 @@ struct MeanTauC {
 
 struct Averages {
   std::vector<MeanSeries> series;                    // by n, particles, e
+  std::vector<MeanSeries> shuffled = {};             // of gases whose velocities are shuffled
   std::optional<VelocityField> velocity_field = {};  // of figure 8, if the store has one
 };
 

@@ -112,7 +112,7 @@ TEST_CASE("figures: an empty store gives none, and says what to plan") {
 
 TEST_CASE("figures: a number the paper does not have is refused") {
   const TemporaryFolder folder;
-  CHECK_THROWS_AS(draw(first_campaign(), folder.path(), {14}), UnknownFigure);
+  CHECK_THROWS_AS(draw(first_campaign(), folder.path(), {15}), UnknownFigure);
 }
 
 TEST_CASE("figures: without gnuplot the tables are written and one message says what to install") {
