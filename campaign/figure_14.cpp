@@ -14,7 +14,7 @@ namespace haff::campaign {
 namespace {
 
 // One run's a_2 is noise of the size of the plateau: averaged over so many samples. [odd]
-constexpr std::size_t window = 7;
+constexpr std::size_t window = 11;
 
 Curve measured(const MeanSeries& series, const Means& means, bool shuffled, double end) {
   Curve curve = measured_curve(series);
@@ -57,7 +57,7 @@ Panel panel(const MeanSeries& plain, const MeanSeries& shuffled, Observable obse
             .column = rate ? "gamma_ratio" : "a2"},
       .curves = {measured(plain, plain.*observable, false, end),
                  measured(shuffled, shuffled.*observable, true, end), theory(plain.e, end, rate)},
-      .legend = rate ? "none" : "top right"};
+      .legend = rate ? "bottom left" : "none"};
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ std::optional<Plot> figure_14(const Averages& averages) {
     const double end = std::min(plain->tau.back(), shuffled.tau.back());
     Panel a2 = panel(*plain, shuffled, &MeanSeries::a2, end);
     Panel rate = panel(*plain, shuffled, &MeanSeries::gamma_ratio, end);
-    a2.frame = {{0.11, 0.5, 0.14, 0.96}};
-    rate.frame = {{0.60, 0.99, 0.14, 0.96}};
+    a2.frame = {{0.10, 0.485, 0.215, 0.96}};
+    rate.frame = {{0.59, 0.975, 0.215, 0.96}};
     return Plot{
         .panels = {a2, rate},
         .caption = fmt::format("{} Mean of {} neighbouring samples.", provenance({*plain}), window),

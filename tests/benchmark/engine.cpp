@@ -31,6 +31,27 @@ std::string state_hash(const engine::Simulation& gas) {
   return text;
 }
 
+// What laws and effects remember, beside what every gas has. Known at a synchronization.
+std::size_t remembered(const engine::Simulation& gas) {
+  std::size_t bytes = 0;
+  if (gas.synchronized())
+    for (const auto& [name, values] : gas.state().memory) bytes += values.size() * sizeof(double);
+  return bytes;
+}
+
+engine::Model model(double e, std::uint64_t seed, const std::string& text) {
+  engine::Model model{.restitution = e, .seed = seed};
+  const auto effects = nlohmann::json::parse(text);
+  for (const auto& [effect, asked] : effects.items())
+    for (const auto& [key, value] : asked.items())
+      if (key == "law")
+        model.law.name = value.get<std::string>();
+      else
+        (effect == "restitution" ? model.law.parameters : model.effects[effect])[key] =
+            value.get<double>();
+  return model;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -40,6 +61,7 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   double warmup = 20;
   double tau = 20;
+  std::string effects = "{}";
   bool scalar = false;
   bool json = false;
   CLI::App app("Collisions per second of the event-driven engine");
@@ -52,6 +74,7 @@ int main(int argc, char** argv) {
   app.add_option("--tau", tau, "collisions per particle measured")->capture_default_str();
   app.add_flag("--scalar", scalar, "predict contacts one by one, without SIMD");
   app.add_flag("--json", json, "print one JSON object");
+  app.add_option("--effects", effects, "as in a grid, JSON")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
   const auto prediction = scalar ? engine::Prediction::scalar : engine::Prediction::simd;
@@ -63,7 +86,7 @@ int main(int argc, char** argv) {
     melting.run_to(engine::collisions_at(period * std::ceil(warmup / period), particles));
     start = engine::restarted(melting.state());
   }
-  engine::Simulation gas({.restitution = e}, start, prediction);
+  engine::Simulation gas(model(e, seed, effects), start, prediction);
   start = {};
   const auto begin = std::chrono::steady_clock::now();
   gas.run_to(engine::collisions_at(tau, particles));
@@ -82,7 +105,7 @@ int main(int argc, char** argv) {
       {"collisions_per_second", collisions / seconds.count()},
       {"crossings_per_collision", static_cast<double>(events.crossings) / collisions},
       {"stale_per_collision", static_cast<double>(events.stale) / collisions},
-      {"bytes_per_particle", static_cast<double>(gas.memory()) / particles},
+      {"bytes_per_particle", static_cast<double>(gas.memory() + remembered(gas)) / particles},
       {"state_hash", state_hash(gas)}};
   if (json) {
     std::printf("%s\n", result.dump().c_str());
