@@ -41,10 +41,11 @@ struct VelocityCorrelations {
 // Of N particles at positions in [0, L) with these velocities; k_M in 1/sigma (cutoff_wavenumber).
 // r depends on box and d alone. For uncorrelated velocities G^+ is zero (-T/(mN) at given total
 // momentum) within a standard error of T / (m sqrt(pairs in the shell)). Rounding: about 1e-15 of N
-// <v^2>. Throws std::invalid_argument unless there are as many positions as velocities, at least
-// two, and the box is wider than 4 sigma.
+// <v^2>. Wider cells than those of one sigma [sigma] show what cells do. Throws
+// std::invalid_argument unless there are as many positions as velocities, at least two, and the box
+// is wider than 4 cells.
 VelocityCorrelations velocity_correlations(std::span<const Vector> position,
                                            std::span<const Vector> velocity, double box,
-                                           double k_max, int d = 3);
+                                           double k_max, int d = 3, double cell = 1);
 
 }  // namespace haff::analysis

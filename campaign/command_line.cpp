@@ -17,9 +17,9 @@ constexpr int most_workers = 1024;
 
 constexpr const char* exit_codes = R"(Exit codes:
   0  complete
-  1  a job failed, the store is damaged or cannot be written
+  1  a job failed, a target cannot be met, the store is damaged or cannot be written
   2  bad input: grid, command line or SQL
-  3  stopped by --max-time with work left
+  3  stopped by --max-time or --budget with work left
   128 + signal  interrupted; the same command goes on)";
 
 std::string examples(const char* text) {
@@ -41,7 +41,11 @@ A grid, with its defaults from "sample_every" on:
   { "e": [0.80, 0.90], "n": 0.4, "N": 32000, "seeds": 2,
     "tau_max": {"0.80": 90, "0.90": 180},
     "sample_every": 1, "equilibrate": 50, "checkpoint_every": 10,
-    "observables": ["temperature", "laguerre"] })"));
+    "observables": ["temperature", "laguerre"] }
+
+A standard error instead of a number of seeds; those given are pilot runs, `run` adds to them:
+  { "e": 0.9, "n": 0.4, "N": 8000, "seeds": 5, "tau_max": 15,
+    "target": {"a2": {"tau": [5, 15], "se": 1e-3}} })"));
   return command;
 }
 
@@ -62,9 +66,20 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
       ->add_option_function<std::string>("--max-time", set_max_time,
                                          "Stop after this time: 90s, 45m, 1h30m")
       ->type_name("TIME");
+  const auto set_budget = [&options](const std::string& text) {
+    options.cpu_budget = seconds_from_text(text);
+    if (!options.cpu_budget)
+      throw CLI::ValidationError("--budget",
+                                 "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
+  };
+  command
+      ->add_option_function<std::string>("--budget", set_budget,
+                                         "Spend at most this CPU time, all workers together")
+      ->type_name("TIME");
   command->footer(examples(R"(  campaign run
   campaign run --workers 4
   campaign run --max-time 1h30m     exit code 3 if work is left
+  campaign run --budget 2h          of CPU time; targets not met by then: exit code 3
   campaign run 2> run.log &         plain lines of progress in run.log
 
 Ctrl-C stores what can be stored and leaves; the same command goes on.)"));
@@ -124,6 +139,36 @@ CLI::App* add_export(CLI::App& app, ExportCommand& options) {
   campaign export 3 | gzip > job-3.xyz.gz
 
 What is stored is the newest checkpoint; its tau stands in the second line.)"));
+  return command;
+}
+
+CLI::App* add_cost(CLI::App& app, CostRequest& options) {
+  auto* command = app.add_subcommand("cost", "What accuracy costs in time");
+  command->add_option("--out", options.out, "Folder to write to")
+      ->type_name("DIR")
+      ->capture_default_str();
+  const auto set_target = [&options](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const auto target = target_from_text(text);
+      if (!target)
+        throw CLI::ValidationError("--target",
+                                   "'" + text +
+                                       "' is no target; expected a quantity and an error above 0, "
+                                       "e.g. a2=5e-4; quantities: a2, a3, gamma_ratio, "
+                                       "ln_temperature, tau_c, G_parallel");
+      options.targets.insert(*target);
+    }
+  };
+  command
+      ->add_option_function<std::vector<std::string>>("--target", set_target,
+                                                      "The error to advise on, e.g. a2=5e-4")
+      ->type_name("QUANTITY=ERROR")
+      ->delimiter(',');
+  command->footer(examples(R"(  campaign cost
+  campaign cost --target a2=5e-4,tau_c=0.5
+  campaign cost --out accuracy
+
+Exit code 1 if no cooling run is done: it then says what to plan.)"));
   return command;
 }
 
@@ -191,6 +236,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   QueryCommand query;
   FigureRequest figures;
   ExportCommand exported;
+  CostRequest cost;
   WorkerCommand worker;
   const CLI::App* plan_command = add_plan(app, plan);
   const CLI::App* run_command = add_run(app, run);
@@ -198,6 +244,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   const CLI::App* query_command = add_query(app, query);
   const CLI::App* figures_command = add_figures(app, figures);
   const CLI::App* export_command = add_export(app, exported);
+  const CLI::App* cost_command = add_cost(app, cost);
   const CLI::App* verify_command = add_verify(app);
   const CLI::App* retry_command = add_retry(app);
   const CLI::App* worker_command = add_worker(app, worker);
@@ -218,6 +265,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   if (query_command->parsed()) line.command = query;
   if (figures_command->parsed()) line.command = figures;
   if (export_command->parsed()) line.command = exported;
+  if (cost_command->parsed()) line.command = cost;
   if (verify_command->parsed()) line.command = VerifyCommand{};
   if (retry_command->parsed()) line.command = RetryCommand{};
   if (worker_command->parsed()) line.command = worker;

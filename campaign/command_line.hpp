@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "campaign/cost.hpp"
 #include "campaign/figures.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/query.hpp"
@@ -30,8 +31,9 @@ struct WorkerCommand {  // what `run` starts; not for people
   int report_descriptor = 0;
 };
 
-using Command = std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest,
-                             ExportCommand, VerifyCommand, RetryCommand, WorkerCommand>;
+using Command =
+    std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest, CostRequest,
+                 ExportCommand, VerifyCommand, RetryCommand, WorkerCommand>;
 
 struct CommandLine {
   std::filesystem::path store;

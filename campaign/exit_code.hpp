@@ -5,9 +5,9 @@ namespace haff::campaign {
 
 enum ExitCode : int {
   exit_complete = 0,
-  exit_failed = 1,        // a job failed, the store is damaged or cannot be written
-  exit_bad_input = 2,     // grid, command line or SQL
-  exit_out_of_time = 3,   // stopped by --max-time with work left
+  exit_failed = 1,     // a job failed, a target cannot be met, the store is damaged or not writable
+  exit_bad_input = 2,  // grid, command line or SQL
+  exit_out_of_time = 3,   // stopped by --max-time or --budget with work left
   exit_signal_base = 128  // plus the signal that interrupted it
 };
 

@@ -64,4 +64,18 @@ std::vector<schema::Planned> expand(const schema::Grid& grid) {
   return plan.take();
 }
 
+std::vector<schema::Target> targets_of(const schema::Grid& grid) {
+  std::vector<schema::Target> all;
+  for (const schema::SubGrid& part : grid.grids)
+    for_each_job(part, [&](const schema::Job& job, double) {
+      if (job.seed != part.seeds.front()) return;
+      for (schema::Target target : part.targets) {
+        target.series = schema::series_identity(job);
+        target.pilots = part.seeds;
+        all.push_back(std::move(target));
+      }
+    });
+  return all;
+}
+
 }  // namespace haff::campaign

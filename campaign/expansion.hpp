@@ -12,4 +12,7 @@ namespace haff::campaign {
 // A job named twice is one with the larger tau_max and the closer checkpoints.
 std::vector<schema::Planned> expand(const schema::Grid& grid);
 
+// The targets of each of its series.
+std::vector<schema::Target> targets_of(const schema::Grid& grid);
+
 }  // namespace haff::campaign

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "campaign/command_line.hpp"
+#include "campaign/cost.hpp"
 #include "campaign/exit_code.hpp"
 #include "campaign/export.hpp"
 #include "campaign/figures.hpp"
@@ -36,6 +37,9 @@ struct Perform {
   }
   int operator()(const ExportCommand& command) const {
     return export_state(line.store, command.job_id, std::cout);
+  }
+  int operator()(const CostRequest& request) const {
+    return cost(schema::Reader(line.store), request, std::cout);
   }
   int operator()(const VerifyCommand&) const { return verify(line.store); }
   int operator()(const RetryCommand&) const { return retry(line.store); }

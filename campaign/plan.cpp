@@ -15,6 +15,7 @@
 #include "campaign/forecast.hpp"
 #include "campaign/job_text.hpp"
 #include "campaign/machine.hpp"
+#include "campaign/targets.hpp"
 #include "campaign/text_table.hpp"
 #include "schema/grid.hpp"
 #include "schema/store.hpp"
@@ -61,7 +62,7 @@ std::string counts_text(const std::map<Outcome, int>& outcomes, bool dry_run) {
 }
 
 void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcomes,
-           Forecast& forecast, const PlanOptions& options) {
+           Forecast& forecast, bool dry_run) {
   std::map<GroupKey, Group> groups;
   std::map<Outcome, int> all;
   double cpu_seconds = 0;
@@ -99,9 +100,27 @@ void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcome
                bytes_text(group.disk_bytes)});
   }
   fmt::print("{}\n", table.text());
-  fmt::print("{} jobs: {}.\n", jobs.size(), counts_text(all, options.dry_run));
+  fmt::print("{} jobs: {}.\n", jobs.size(), counts_text(all, dry_run));
   fmt::print("Expected in all: {} of CPU time ({}), {} of memory for each worker, {} on disk.\n",
              duration_text(cpu_seconds), forecast.source(), bytes_text(memory), bytes_text(disk));
+}
+
+// What the targets will take beyond the jobs above, as far as runs that are done tell.
+void print_targets(const std::vector<TargetProgress>& targets) {
+  if (targets.empty()) return;
+  fmt::print("\n{}\n", targets_table(targets));
+  const bool unknown = std::ranges::any_of(
+      targets, [](const TargetProgress& target) { return target.expected == 0; });
+  if (const double more = cpu_seconds_unplanned(targets); more > 0)
+    fmt::print("Beyond the jobs above, targets will take some {} of CPU time.\n",
+               duration_text(more));
+  if (unknown)
+    fmt::print(
+        "A target's pilot runs, the seeds of the grid, tell how many realizations it takes: "
+        "plan again once they\nare done, or look at `status`; `run` goes on by itself.\n");
+}
+
+void print_next(const PlanOptions& options) {
   if (options.dry_run)
     fmt::print("Nothing was written. Next: {}\n",
                command_text(fmt::format("plan {}", options.grid.string()), options.store));
@@ -112,24 +131,29 @@ void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcome
 }  // namespace
 
 int plan(const PlanOptions& options) {
-  std::vector<Planned> jobs = expand(schema::read_grid(options.grid, machine_memory()));
-  std::vector<Outcome> outcomes;
+  const schema::Grid grid = schema::read_grid(options.grid, machine_memory());
+  std::vector<Planned> jobs = expand(grid);
+  const std::vector<schema::Target> targets = targets_of(grid);
   if (!options.dry_run) {
     schema::Store store = schema::Store::create(options.store);
     Forecast forecast(store.jobs());
     expect(jobs, forecast);
-    outcomes = store.add(jobs);
-    print(jobs, outcomes, forecast, options);
+    const std::vector<Outcome> outcomes = store.add(jobs);
+    store.add(targets);
+    print(jobs, outcomes, forecast, false);
+    print_targets(progress_of(store, targets));
   } else if (std::filesystem::exists(options.store)) {
     const schema::Reader store(options.store);
     Forecast forecast(store.jobs());
     expect(jobs, forecast);
-    print(jobs, store.preview(jobs), forecast, options);
+    print(jobs, store.preview(jobs), forecast, true);
+    print_targets(progress_of(store, targets));
   } else {
     Forecast forecast({});
     expect(jobs, forecast);
-    print(jobs, std::vector(jobs.size(), Outcome::added), forecast, options);
+    print(jobs, std::vector(jobs.size(), Outcome::added), forecast, true);
   }
+  print_next(options);
   return exit_complete;
 }
 

@@ -12,12 +12,15 @@
 #include <vector>
 
 #include "campaign/abandoned.hpp"
+#include "campaign/cpu_time.hpp"
 #include "campaign/display.hpp"
+#include "campaign/duration.hpp"
 #include "campaign/exit_code.hpp"
 #include "campaign/job_text.hpp"
 #include "campaign/ledger.hpp"
 #include "campaign/signals.hpp"
 #include "campaign/status.hpp"
+#include "campaign/targets.hpp"
 #include "campaign/work_left.hpp"
 #include "campaign/worker.hpp"
 #include "campaign/worker_process.hpp"
@@ -42,9 +45,11 @@ constexpr int excused_kills = 10;
 
 class Coordinator {
  public:
-  Coordinator(schema::Store& store, const RunOptions& options, std::size_t workers)
+  Coordinator(schema::Store& store, const RunOptions& options, Clock::time_point start,
+              std::size_t workers)
       : store_(store),
         options_(options),
+        start_(start),
         display_(workers),
         ledger_(store),
         workers_(workers),
@@ -67,7 +72,7 @@ class Coordinator {
     }
   }
 
-  bool is_out_of_time() const { return out_of_time_; }
+  bool is_over_limit() const { return over_limit_; }
   bool has_store_error() const { return store_error_; }
 
  private:
@@ -218,13 +223,25 @@ class Coordinator {
     }
     if (!is_stopping() && options_.max_seconds &&
         now - start_ > std::chrono::duration<double>(*options_.max_seconds)) {
-      out_of_time_ = true;
+      over_limit_ = true;
       display_.log(Level::info, "stopping: --max-time is over");
+      stop();
+    }
+    if (!is_stopping() && options_.cpu_budget && cpu_spent() > *options_.cpu_budget) {
+      over_limit_ = true;
+      display_.log(Level::info, "stopping: --budget is spent");
       stop();
     }
     if (is_stopping() && (stop_signals() > 1 || now - *stopping_since_ > grace))
       for (const auto& worker : workers_)
         if (worker) worker->signal(SIGKILL);
+  }
+
+  double cpu_spent() const {
+    double sum = cpu_seconds_of_the_buried();
+    for (const auto& worker : workers_)
+      if (worker) sum += cpu_seconds_of(static_cast<pid_t>(worker->identity().pid));
+    return sum;
   }
 
   void stop() {
@@ -236,6 +253,7 @@ class Coordinator {
 
   schema::Store& store_;
   const RunOptions& options_;
+  Clock::time_point start_;  // of the run, of which this may be a later round
   Display display_;
   Ledger ledger_;
   std::vector<std::unique_ptr<WorkerProcess>> workers_;
@@ -246,19 +264,60 @@ class Coordinator {
     int count = 0;
   };
   std::map<std::int64_t, Kills> kills_;  // by job
-  bool out_of_time_ = false;
+  bool over_limit_ = false;
   bool store_error_ = false;
   std::optional<Clock::time_point> stopping_since_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point looked_ = start_;
+  Clock::time_point looked_;
 };
 
-int conclusion(const schema::Summary& summary, bool out_of_time, bool store_error) {
+struct Ended {
+  bool over_limit = false;
+  bool store_error = false;
+};
+
+// All that is pending.
+Ended run_round(schema::Store& store, const RunOptions& options, Clock::time_point start) {
+  const schema::Summary before = store.summary();
+  const auto useful = before.claimable + before.waiting + before.jobs.at(schema::Status::running);
+  if (useful == 0) return {};
+  const auto workers = std::min<std::int64_t>(options.workers, useful);
+  Coordinator coordinator(store, options, start, static_cast<std::size_t>(workers));
+  coordinator.run();
+  return {coordinator.is_over_limit(), coordinator.has_store_error()};
+}
+
+// Round by round, until the targets are met or something ends it.
+Ended run_rounds(schema::Store& store, const RunOptions& options) {
+  const auto start = Clock::now();
+  for (;;) {
+    const Ended ended = run_round(store, options, start);
+    if (ended.over_limit || ended.store_error || stop_signal() != 0) return ended;
+    std::optional<double> affordable = options.cpu_budget;
+    if (affordable) *affordable -= cpu_seconds_of_the_buried();
+    if (add_realizations(store, affordable) == 0) return ended;
+  }
+}
+
+bool any(const std::vector<TargetProgress>& targets, Verdict verdict) {
+  return std::ranges::any_of(targets,
+                             [=](const TargetProgress& each) { return each.verdict == verdict; });
+}
+
+int conclusion(const schema::Summary& summary, const std::vector<TargetProgress>& targets,
+               const Ended& ended) {
   if (stop_signal() != 0) return exit_signal_base + stop_signal();
-  if (store_error) return exit_failed;
-  if (out_of_time && may_have_work(summary)) return exit_out_of_time;
+  if (ended.store_error) return exit_failed;
+  if (ended.over_limit && may_have_work(summary)) return exit_out_of_time;
   if (summary.jobs.at(schema::Status::failed) > 0 || summary.blocked > 0) return exit_failed;
-  return exit_complete;
+  if (any(targets, Verdict::short_of)) return exit_out_of_time;
+  return any(targets, Verdict::unreachable) ? exit_failed : exit_complete;
+}
+
+// Why a run with a budget ended, where that is not plain from the tables.
+void print_budget(const RunOptions& options, int exit_code) {
+  if (options.cpu_budget && exit_code == exit_out_of_time)
+    fmt::print("Stopped: {} of CPU time spent, --budget allows {}\n",
+               duration_text(cpu_seconds_of_the_buried()), duration_text(*options.cpu_budget));
 }
 
 }  // namespace
@@ -266,19 +325,11 @@ int conclusion(const schema::Summary& summary, bool out_of_time, bool store_erro
 int run(const RunOptions& options) {
   note_stop_signals();
   schema::Store store = schema::Store::open(options.store);
-  const schema::Summary before = store.summary();
-  const auto useful = before.claimable + before.waiting + before.jobs.at(schema::Status::running);
-  bool out_of_time = false;
-  bool store_error = false;
-  if (useful > 0) {
-    const auto workers = std::min<std::int64_t>(options.workers, useful);
-    Coordinator coordinator(store, options, static_cast<std::size_t>(workers));
-    coordinator.run();
-    out_of_time = coordinator.is_out_of_time();
-    store_error = coordinator.has_store_error();
-  }
+  const Ended ended = run_rounds(store, options);
+  const int exit_code = conclusion(store.summary(), progress_of(store, store.targets()), ended);
+  print_budget(options, exit_code);
   print_outcome(store);
-  return conclusion(store.summary(), out_of_time, store_error);
+  return exit_code;
 }
 
 }  // namespace haff::campaign

@@ -11,9 +11,11 @@ struct RunOptions {
   std::filesystem::path store;
   int workers = 1;
   std::optional<double> max_seconds;  // wall clock
+  std::optional<double> cpu_budget;   // of all workers together [s]
 };
 
-// Runs all that is pending; returns an ExitCode.
+// Runs all that is pending, then adds realizations until the store's targets are met; returns an
+// ExitCode.
 int run(const RunOptions& options);
 
 }  // namespace haff::campaign

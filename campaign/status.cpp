@@ -15,6 +15,7 @@
 #include "campaign/exit_code.hpp"
 #include "campaign/job_text.hpp"
 #include "campaign/series.hpp"
+#include "campaign/targets.hpp"
 #include "campaign/text_table.hpp"
 
 namespace haff::campaign {
@@ -32,6 +33,7 @@ struct Picture {
   std::vector<schema::JobRow> jobs;
   std::vector<schema::RunningJob> running;
   std::vector<Series> series;
+  std::vector<TargetProgress> targets;
   std::optional<schema::Invariants> worst;  // of all runs; nothing before the first
 };
 
@@ -51,8 +53,9 @@ std::optional<schema::Invariants> worst_invariants(const Reader& store) {
 }
 
 Picture look(const Reader& store) {
-  return {store.path(),    store.summary(),  store.jobs(),
-          store.running(), series_of(store), worst_invariants(store)};
+  return {store.path(),           store.summary(),  store.jobs(),
+          store.running(),        series_of(store), progress_of(store, store.targets()),
+          worst_invariants(store)};
 }
 
 double fraction_done(const schema::Summary& summary) {
@@ -67,7 +70,11 @@ std::vector<std::string> next_commands(const Picture& picture) {
   if (summary.jobs.at(Status::failed) > 0) commands.emplace_back("retry");
   const bool abandoned = std::any_of(picture.running.begin(), picture.running.end(), is_abandoned);
   const bool nobody_runs = picture.running.empty() || abandoned;
-  if (nobody_runs && (abandoned || !commands.empty() || summary.jobs.at(Status::pending) > 0))
+  const bool short_of_target = std::ranges::any_of(
+      picture.targets,
+      [](const TargetProgress& target) { return target.verdict == Verdict::short_of; });
+  if (nobody_runs &&
+      (abandoned || !commands.empty() || short_of_target || summary.jobs.at(Status::pending) > 0))
     commands.emplace_back("run");
   if (summary.jobs.at(Status::done) > 0 && commands.empty() && picture.running.empty())
     commands.emplace_back("figures");
@@ -150,20 +157,46 @@ std::string next_text(const Picture& picture) {
   return text;
 }
 
+// What jobs that are done took, beside what was expected for them.
+std::string cpu_time_text(const Picture& picture) {
+  const schema::Summary& summary = picture.summary;
+  std::string text =
+      fmt::format("CPU time: {} spent, {} expected in all, {} of it to come\n",
+                  duration_text(summary.cpu_seconds), duration_text(summary.expected_cpu_seconds),
+                  duration_text(summary.remaining_cpu_seconds));
+  double expected = 0, spent = 0;
+  for (const schema::JobRow& row : picture.jobs)
+    if (row.status == Status::done && row.expected_cpu_seconds) {
+      expected += *row.expected_cpu_seconds;
+      spent += row.progress.cpu_seconds;
+    }
+  if (expected > 0)
+    text += fmt::format("          jobs that are done took {}, {} was expected for them\n",
+                        duration_text(spent), duration_text(expected));
+  if (const double more = cpu_seconds_unplanned(picture.targets); more > 0)
+    text += fmt::format("          and some {} for the targets, beyond what is planned\n",
+                        duration_text(more));
+  return text;
+}
+
+// Series, targets, failures, and what to do.
+void print_findings(const Picture& picture) {
+  if (!picture.series.empty()) fmt::print("{}\n", series_table(picture.series));
+  if (!picture.targets.empty()) fmt::print("{}\n", targets_table(picture.targets));
+  const std::string failures = failures_text(picture);
+  if (!failures.empty()) fmt::print("{}\n", failures);
+  fmt::print("{}", next_text(picture));
+}
+
 void print_picture(const Picture& picture) {
   const schema::Summary& summary = picture.summary;
   fmt::print("{}: {} jobs, {:.1f} % of the work done\n\n", picture.path.string(),
              picture.jobs.size(), 100 * fraction_done(summary));
   fmt::print("{}\n", jobs_table(picture.jobs));
-  fmt::print("CPU time: {} spent, {} expected in all, {} of it to come\n\n",
-             duration_text(summary.cpu_seconds), duration_text(summary.expected_cpu_seconds),
-             duration_text(summary.remaining_cpu_seconds));
+  fmt::print("{}\n", cpu_time_text(picture));
   if (picture.worst) fmt::print("{}\n", invariants_text(*picture.worst));
   if (!picture.running.empty()) fmt::print("{}\n", running_table(picture.running));
-  if (!picture.series.empty()) fmt::print("{}\n", series_table(picture.series));
-  const std::string failures = failures_text(picture);
-  if (!failures.empty()) fmt::print("{}\n", failures);
-  fmt::print("{}", next_text(picture));
+  print_findings(picture);
 }
 
 // ---- for programs -----------------------------------------------------------------------------
@@ -209,6 +242,24 @@ ordered_json series_json(const Series& series) {
   return object;
 }
 
+ordered_json target_json(const TargetProgress& progress) {
+  ordered_json object = physics_json(progress.job);
+  const bool has_mean = progress.estimate.count > 0, has_error = progress.estimate.count > 1;
+  object.update(
+      {{"quantity", progress.target.quantity},
+       {"tau", {progress.target.tau_from, progress.target.tau_to}},
+       {"se_wanted", progress.target.se},
+       {"realizations", progress.estimate.count},
+       {"realizations_expected",
+        progress.expected > 0 ? ordered_json(progress.expected) : ordered_json(nullptr)},
+       {"mean", has_mean ? ordered_json(progress.estimate.mean) : ordered_json(nullptr)},
+       {"se", has_error ? ordered_json(progress.estimate.standard_error) : ordered_json(nullptr)},
+       {"half_interval", or_null(progress.half_interval)},
+       {"cpu_seconds_unplanned", progress.cpu_seconds},
+       {"verdict", name(progress.verdict)}});
+  return object;
+}
+
 ordered_json failure_json(const schema::JobRow& row) {
   ordered_json object = physics_json(row.job);
   object.update({{"job_id", row.job_id},
@@ -237,16 +288,20 @@ ordered_json picture_json(const Picture& picture) {
       {"fraction_done", fraction_done(summary)},
       {"cpu_seconds", summary.cpu_seconds},
       {"expected_cpu_seconds", summary.expected_cpu_seconds},
-      {"remaining_cpu_seconds", summary.remaining_cpu_seconds},
+      {"remaining_cpu_seconds",
+       summary.remaining_cpu_seconds + cpu_seconds_unplanned(picture.targets)},
       {"invariants", picture.worst ? invariants_json(*picture.worst) : ordered_json(nullptr)},
       {"running", ordered_json::array()},
       {"series", ordered_json::array()},
+      {"targets", ordered_json::array()},
       {"failures", ordered_json::array()},
       {"blocked", ordered_json::array()},
       {"next", next_commands(picture)},
   };
   for (const auto& job : picture.running) object["running"].push_back(running_json(job));
   for (const Series& series : picture.series) object["series"].push_back(series_json(series));
+  for (const TargetProgress& target : picture.targets)
+    object["targets"].push_back(target_json(target));
   const auto status = status_of_each(picture.jobs);
   for (const schema::JobRow& row : picture.jobs) {
     if (row.status == Status::failed || row.status == Status::collapsed)
@@ -269,11 +324,7 @@ int status(const std::filesystem::path& path, bool json) {
 }
 
 void print_outcome(const Reader& store) {
-  const Picture picture = look(store);
-  if (!picture.series.empty()) fmt::print("{}\n", series_table(picture.series));
-  const std::string failures = failures_text(picture);
-  if (!failures.empty()) fmt::print("{}\n", failures);
-  fmt::print("{}", next_text(picture));
+  print_findings(look(store));
 }
 
 }  // namespace haff::campaign

@@ -258,7 +258,47 @@ class Examiner {
     for (const Placed& item : items(*moments)) belongs(item);
   }
 
+  // A target is something every run measures, and its pilot runs are enough to judge from.
+  void reachable(const Source& source, const std::vector<double>& tau_max) const {
+    const auto target = source.find("target");
+    if (!target) return;
+    const Placed pilots = source["seeds"];
+    const double count = pilots.value.is_number() ? pilots.value.get<double>()
+                                                  : static_cast<double>(pilots.value.size());
+    if (count < static_cast<double>(fewest_pilots))
+      throw fault(file_, pilots.where,
+                  shown(pilots.value) + " are too few pilot runs for a target; expected at least " +
+                      std::to_string(fewest_pilots) + " seeds");
+    const auto names = observables(source);
+    for (const auto& [quantity, wish] : target->value.items()) {
+      const Pointer where = target->where / quantity;
+      const std::string observable = quantity[0] == 'a' ? "laguerre" : "temperature";
+      if (!std::binary_search(names.begin(), names.end(), observable))
+        throw fault(file_, where, "is not measured; expected \"" + observable +
+                                      "\" among the observables of this grid");
+      const auto e = source.list<double>("e");
+      if (quantity[0] != 'a' && std::count(e.begin(), e.end(), 1.0) > 0)
+        throw fault(file_, where, "does not exist at e = 1; expected e below 1");
+      if (wish.contains("tau")) within_run(source, where / "tau", wish["tau"], tau_max);
+    }
+  }
+
  private:
+  void within_run(const Source& source, const Pointer& where, const Json& window,
+                  const std::vector<double>& tau_max) const {
+    const double from = window[0].get<double>(), to = window[1].get<double>();
+    const double shortest = *std::min_element(tau_max.begin(), tau_max.end());
+    if (to > shortest)
+      throw fault(file_, where / 1,
+                  shown(window[1]) +
+                      " is beyond the run; expected at most tau_max = " + text(shortest));
+    for (const double sample_every : source.list<double>("sample_every"))
+      if (to - from < sample_every)
+        throw fault(file_, where,
+                    shown(window) + " holds no interval between samples; expected a window of at "
+                                    "least sample_every = " + text(sample_every));
+  }
+
   // Both are rounded: what differs by less than this is the same place. [relative]
   static bool is_multiple(double tau, double interval) {
     constexpr double rounding = 1e-9;
@@ -382,6 +422,21 @@ std::vector<std::uint64_t> seeds(const Placed& placed) {
   return list;
 }
 
+std::vector<Target> targets(const Source& source) {
+  const auto placed = source.find("target");
+  if (!placed) return {};
+  std::vector<Target> all;
+  for (const auto& [quantity, wish] : placed->value.items()) {
+    Target target{.series = {}, .quantity = quantity, .se = wish["se"].get<double>()};
+    if (wish.contains("tau")) {
+      target.tau_from = wish["tau"][0].get<double>();
+      target.tau_to = wish["tau"][1].get<double>();
+    }
+    all.push_back(std::move(target));
+  }
+  return all;
+}
+
 std::vector<std::string> effects(const Placed& placed) {
   std::vector<std::string> texts;
   for (Json& one : expanded(placed.value)) {
@@ -406,7 +461,8 @@ SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {
                .observables = observables(source),
                .profiles_every = std::nullopt,
                .fields_at = {},
-               .effects = effects(source["effects"])};
+               .effects = effects(source["effects"]),
+               .targets = targets(source)};
   // Kept where they decide what is measured: elsewhere two grids that differ in them are the same.
   const auto& names = grid.observables;
   if (std::any_of(names.begin(), names.end(), is_profile))
@@ -439,6 +495,7 @@ Grid parse_grid(std::string_view text, const std::string& file, const Memory& me
     auto tau_max = examiner.tau_max(source);
     examiner.sampled(source, tau_max);
     examiner.in_step(source, tau_max);
+    examiner.reachable(source, tau_max);
     grid.grids.push_back(sub_grid(source, std::move(tau_max)));
   }
   return grid;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "schema/target.hpp"
+
 namespace haff::schema {
 
 // Something is wrong with a grid file. The message names the file, the JSON pointer (or line and
@@ -32,6 +34,7 @@ struct SubGrid {
   std::optional<double> profiles_every;  // where an observable is a profile
   std::vector<double> fields_at;         // increasing; where fields are an observable
   std::vector<std::string> effects;      // each as in Job::effects
+  std::vector<Target> targets;           // of each of its series; seeds are the pilot runs
 };
 
 struct Grid {

@@ -72,6 +72,11 @@ bool cools_by_haff(const Job& job) {
   return job.e.has_value() && !nlohmann::json::parse(job.effects).contains("thermostat");
 }
 
+std::string series_identity(Job job) {
+  job.seed = 0;
+  return identity(job);
+}
+
 bool is_profile(std::string_view observable) {
   return observable == "distribution" || observable == "correlations" ||
          observable == "structure" || observable == "clusters";

@@ -82,6 +82,9 @@ std::string identity(const Job& job);
 // is what it loses energy by, and it gains none.
 bool cools_by_haff(const Job& job);
 
+// What the realizations of one series have in common: the identity with seed 0.
+std::string series_identity(Job job);
+
 // Whether an observable is taken every profiles_every, at fields_at, or else with every sample.
 bool is_profile(std::string_view observable);
 bool is_field(std::string_view observable);

@@ -181,6 +181,22 @@ std::optional<Invariants> Reader::invariants(std::int64_t job_id) const {
   });
 }
 
+std::vector<Target> Reader::targets() const {
+  return database_->guarded([&] {
+    SQLite::Statement row(database_->sqlite(),
+                          "SELECT * FROM targets ORDER BY series, quantity, tau_from, tau_to");
+    std::vector<Target> targets;
+    while (row.executeStep())
+      targets.push_back({.series = text(row, "series"),
+                         .quantity = text(row, "quantity"),
+                         .tau_from = real(row, "tau_from"),
+                         .tau_to = real(row, "tau_to"),
+                         .se = real(row, "se"),
+                         .pilots = seeds_in(text(row, "pilots"))});
+    return targets;
+  });
+}
+
 std::vector<CheckpointInfo> Reader::checkpoints() const {
   return database_->guarded([&] {
     SQLite::Statement statement(database_->sqlite(), "SELECT * FROM checkpoints ORDER BY job_id");

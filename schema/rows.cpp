@@ -1,5 +1,7 @@
 #include "schema/rows.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace haff::schema {
 
 Job job_of(const SQLite::Statement& row) {
@@ -74,6 +76,14 @@ CheckpointInfo checkpoint_info(const SQLite::Statement& row) {
           .tau = real(row, "tau"),
           .collisions = integer(row, "collisions"),
           .bytes = integer(row, "bytes")};
+}
+
+std::string seeds_text(const std::vector<std::uint64_t>& seeds) {
+  return nlohmann::json(seeds).dump();
+}
+
+std::vector<std::uint64_t> seeds_in(const std::string& text) {
+  return nlohmann::json::parse(text).get<std::vector<std::uint64_t>>();
 }
 
 }  // namespace haff::schema

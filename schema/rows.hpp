@@ -39,6 +39,10 @@ Progress progress_of(const SQLite::Statement& row);
 Sample sample(const SQLite::Statement& row);
 CheckpointInfo checkpoint_info(const SQLite::Statement& row);
 
+// [1,2,3], as in the column targets.pilots. And back.
+std::string seeds_text(const std::vector<std::uint64_t>& seeds);
+std::vector<std::uint64_t> seeds_in(const std::string& text);
+
 // What adding this job to the store as it is would do.
 Outcome outcome(SQLite::Database& sqlite, const Planned& planned);
 

@@ -331,6 +331,25 @@ std::vector<Outcome> Store::add(const std::vector<Planned>& plan) {
   });
 }
 
+void Store::add(const std::vector<Target>& targets) {
+  database().transaction([&] {
+    SQLite::Statement statement(database().sqlite(), R"(
+      INSERT INTO targets (series, quantity, tau_from, tau_to, se, pilots)
+      VALUES (:series, :quantity, :tau_from, :tau_to, :se, :pilots)
+      ON CONFLICT DO UPDATE SET se = excluded.se)");
+    for (const Target& target : targets) {
+      statement.reset();
+      statement.bind(":series", target.series);
+      statement.bind(":quantity", target.quantity);
+      statement.bind(":tau_from", target.tau_from);
+      statement.bind(":tau_to", target.tau_to);
+      statement.bind(":se", target.se);
+      statement.bind(":pilots", seeds_text(target.pilots));
+      statement.exec();
+    }
+  });
+}
+
 std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_version) {
   return database().transaction([&]() -> std::optional<Claim> {
     SQLite::Statement statement(database().sqlite(), R"(

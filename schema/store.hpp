@@ -33,6 +33,7 @@
 #include "schema/error.hpp"
 #include "schema/job.hpp"
 #include "schema/query.hpp"
+#include "schema/target.hpp"
 
 namespace haff::schema {
 
@@ -240,6 +241,8 @@ class Reader {
   std::optional<Results> results(std::int64_t job_id) const;
   std::optional<Invariants> invariants(std::int64_t job_id) const;
 
+  std::vector<Target> targets() const;  // by series, quantity, window
+
   std::vector<CheckpointInfo> checkpoints() const;  // one a job at most, by job_id
   // The job's newest checkpoint. Throws Damage if a chunk is missing or a bit is wrong.
   std::optional<Checkpoint> checkpoint(std::int64_t job_id) const;
@@ -274,6 +277,10 @@ class Store : public Reader {
   // transaction, outcomes in the order given. A cooling job's equilibration must be in the plan
   // (anywhere) or in the store: std::logic_error otherwise. A plan names a job once.
   std::vector<Outcome> add(const std::vector<Planned>& plan);
+
+  // Add targets. Of one that is there only the standard error changes: its pilot runs stay, so that
+  // what is already known of the results does not choose them.
+  void add(const std::vector<Target>& targets);
 
   // Take a job that can be run: equilibrations first, then those whose remaining time is longest,
   // so that the last ones to finish are short. Nothing if none can be run now (see Summary).

@@ -187,14 +187,14 @@ TEST_CASE("an unknown key is named with the nearest known one") {
                   "g.json: /density: unknown key; expected one of \"N\", \"checkpoint_every\", "
                   "\"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
                   "\"observables\", "
-                  "\"profiles_every\", \"sample_every\", \"seeds\", \"tau_max\"");
+                  "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
   check_complaint(R"({"E": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 1})",
                   "g.json: /E: unknown key; did you mean \"e\"?");
   check_complaint(with("a/b~c", "1"),
                   "g.json: /a~1b~0c: unknown key; expected one of \"N\", \"checkpoint_every\", "
                   "\"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
                   "\"observables\", "
-                  "\"profiles_every\", \"sample_every\", \"seeds\", \"tau_max\"");
+                  "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
 }
 
 TEST_CASE("a missing key is named") {
@@ -417,4 +417,51 @@ TEST_CASE("profiles and fields belong to samples within the run") {
   check_complaint(with("observables", R"("fields", "fields_at": -1)"),
                   "g.json: /fields_at: -1 is not accepted; expected when fields are taken "
                   "[collisions per particle], a multiple of sample_every or a list of them");
+}
+
+// ---- targets ----------------------------------------------------------------------------------
+
+namespace {
+
+std::string with_target(const std::string& target, const std::string& rest = R"("seeds": 5)") {
+  return R"({"e": 0.8, "n": 0.4, "N": 1000, "tau_max": 90, )" + rest + R"(, "target": )" + target +
+         "}";
+}
+
+}  // namespace
+
+TEST_CASE("targets are read with their windows") {
+  const auto targets =
+      parse(with_target(R"({"a2": {"tau": [5, 15], "se": 5e-4}, "tau_c": {"se": 0.5}})"))
+          .grids[0]
+          .targets;
+  REQUIRE(targets.size() == 2);
+  CHECK(targets[0].quantity == "a2");
+  CHECK(targets[0].tau_from == 5);
+  CHECK(targets[0].tau_to == 15);
+  CHECK(targets[0].se == 5e-4);
+  CHECK(targets[1].quantity == "tau_c");
+  CHECK(targets[1].tau_to == 0);
+}
+
+TEST_CASE("a target that runs cannot judge is refused") {
+  check_complaint(with_target(R"({"a2": {"tau": [5, 15], "se": 5e-4}})", R"("seeds": 3)"),
+                  "g.json: /seeds: 3 are too few pilot runs for a target; expected at least 5 "
+                  "seeds");
+  check_complaint(with_target(R"({"a2": {"tau": [5, 95], "se": 5e-4}})"),
+                  "g.json: /target/a2/tau/1: 95 is beyond the run; expected at most tau_max = 90");
+  check_complaint(with_target(R"({"a2": {"tau": [15, 5], "se": 5e-4}})"),
+                  "g.json: /target/a2/tau: [15,5] holds no interval between samples; expected a "
+                  "window of at least sample_every = 1");
+  check_complaint(
+      with_target(R"({"tau_c": {"se": 1}})", R"("seeds": 5, "observables": ["laguerre"])"),
+      "g.json: /target/tau_c: is not measured; expected \"temperature\" among the observables of "
+      "this grid");
+}
+
+TEST_CASE("a target needs a standard error above 0 and a known quantity") {
+  CHECK(complaint(with_target(R"({"a2": {"tau": [5, 15], "se": 0}})")).find("/target/a2/se") !=
+        std::string::npos);
+  CHECK(complaint(with_target(R"({"a2": {"se": 1e-3}})")).find("/target/a2") != std::string::npos);
+  CHECK(complaint(with_target(R"({"a9": {"se": 1e-3}})")).find("/target") != std::string::npos);
 }

@@ -128,6 +128,25 @@ TEST_CASE("jobs are listed by kind, physics and seed, however they were planned"
                      {1, 1}, {1, 2}, {1, 9}, {1, 10}, {0.8, 9}, {0.8, 10}, {0.9, 1}, {0.9, 2}});
 }
 
+TEST_CASE("a target that is planned again changes its error, not its pilot runs") {
+  Store store = Store::create(":memory:");
+  Target target{.series = series_identity(cooling()),
+                .quantity = "a2",
+                .tau_from = 5,
+                .tau_to = 15,
+                .se = 1e-3,
+                .pilots = {1, 2, 3, 4, 5}};
+  store.add(std::vector{target});
+  target.se = 5e-4;
+  target.pilots = {6, 7, 8, 9, 10};
+  store.add(std::vector{target});
+  const auto targets = store.targets();
+  REQUIRE(targets.size() == 1);
+  CHECK(targets[0].series == target.series);
+  CHECK(targets[0].se == 5e-4);
+  CHECK(targets[0].pilots == std::vector<std::uint64_t>{1, 2, 3, 4, 5});
+}
+
 // ---- claiming ---------------------------------------------------------------------------------
 
 TEST_CASE("equilibrations come first, cooling when its own is done") {

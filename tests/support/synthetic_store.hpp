@@ -178,8 +178,10 @@ inline void add_finished(schema::Store& store, schema::Job job, int seeds, doubl
   }
   store.add(plan);
   while (const auto claim = store.claim(owner, "synthetic")) {
-    schema::Commit last{.checkpoint = schema::Checkpoint{.tau = claim->tau_max},
-                        .progress = {.tau = claim->tau_max}};
+    schema::Commit last{
+        .checkpoint = schema::Checkpoint{.tau = claim->tau_max},
+        .progress = {.tau = claim->tau_max,
+                     .cpu_seconds = 0.5e-6 * claim->tau_max * claim->job.particles}};
     std::optional<schema::Results> results;
     if (claim->job.kind == schema::Kind::cooling) {
       last.samples = SyntheticGas(claim->job, claim->tau_max).samples();

@@ -1,0 +1,335 @@
+#include "campaign/assessment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "analysis/energy_equation.hpp"
+#include "analysis/statistics.hpp"
+#include "campaign/job_text.hpp"
+#include "campaign/text_table.hpp"
+
+namespace haff::campaign {
+namespace {
+
+using analysis::Estimate;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// Where a_2 of 0.8 <= e < 1 is near its plateau, before velocity correlations draw it back. [tau]
+constexpr double plateau_from = 5, plateau_to = 15;
+
+// gamma is averaged over so much to either side of these tau.
+constexpr double decay_at[] = {10, 50};
+constexpr double decay_reach = 2;
+
+// G_parallel: a distance beyond the cells of its mesh and within a small box; the paper's tau.
+// [sigma]
+constexpr double correlation_r = 5;
+constexpr double correlation_tau = 50;
+
+// Every second and every fifth sample.
+constexpr std::size_t thinned[] = {2, 5};
+
+// ---- which quantities -------------------------------------------------------------------------
+
+std::optional<double> latest_correlation(const std::vector<const PilotSeries*>& gas) {
+  std::optional<double> latest;
+  for (const PilotSeries* series : gas)
+    for (const schema::Profile& profile : series->pilots.front().correlations)
+      if (profile.tau <= correlation_tau && profile.tau > latest.value_or(0)) latest = profile.tau;
+  return latest;
+}
+
+std::vector<Quantity> quantities_of(const std::vector<const PilotSeries*>& gas) {
+  std::vector<Quantity> all{{.measure = Measure::a2, .from = plateau_from, .to = plateau_to},
+                            {.measure = Measure::a3, .from = plateau_from, .to = plateau_to}};
+  for (const double tau : decay_at)
+    all.push_back(
+        {.measure = Measure::gamma_ratio, .from = tau - decay_reach, .to = tau + decay_reach});
+  const schema::Job& job = gas.front()->job;
+  if (job.d == 3 && job.e < 1) {
+    // One tau for all sizes, whatever their own tau_c.
+    const double tau = std::round(analysis::energy_equation_tau_c({.e = job.e, .n = job.n}));
+    all.push_back({.measure = Measure::ln_temperature, .from = tau, .to = tau});
+  }
+  all.push_back({.measure = Measure::tau_c});
+  if (const auto tau = latest_correlation(gas))
+    all.push_back({.measure = Measure::correlation, .from = *tau, .to = *tau, .r = correlation_r});
+  return all;
+}
+
+// ---- chance -----------------------------------------------------------------------------------
+
+std::vector<double> values_of(const Quantity& quantity, const PilotSeries& series) {
+  std::vector<double> values;
+  for (const Pilot& pilot : series.pilots)
+    if (const auto value = value_of(quantity, series.job, pilot)) values.push_back(*value);
+  return values;
+}
+
+double mean_cpu_seconds(const Quantity& quantity, const PilotSeries& series) {
+  double sum = 0;
+  for (const Pilot& pilot : series.pilots) sum += cpu_seconds(quantity, pilot);
+  return sum / static_cast<double>(series.pilots.size());
+}
+
+std::optional<Statistics> statistics_of(const Quantity& quantity, const PilotSeries& series) {
+  const auto values = values_of(quantity, series);
+  if (values.empty()) return std::nullopt;
+  const Estimate estimate = analysis::estimate(values);
+  Statistics result{.quantity = quantity,
+                    .job = series.job,
+                    .realizations = values.size(),
+                    .mean = estimate.mean,
+                    .error = estimate.standard_error,
+                    .half_interval = none,
+                    .deviation = none,
+                    .cpu_seconds = mean_cpu_seconds(quantity, series)};
+  if (values.size() == 1) {
+    if (const auto blocks = error_within(quantity, series.job, series.pilots.front())) {
+      result.error = blocks->standard_error;
+      result.correlation_time = blocks->correlation_time;
+    }
+    return result;
+  }
+  result.half_interval = analysis::student_t(values.size() - 1) * estimate.standard_error;
+  result.deviation = analysis::standard_deviation(estimate);
+  result.scatter = analysis::group_scatter(values);
+  if (result.scatter.size() > 1 && result.deviation > 0)
+    result.slope = analysis::scatter_slope(result.scatter);
+  return result;
+}
+
+// ---- what moves the mean ----------------------------------------------------------------------
+
+// How a job was prepared, without how it was looked at.
+schema::Job unobserved(schema::Job job) {
+  job.sample_every = 1;
+  job.observables.clear();
+  job.profiles_every = std::nullopt;
+  job.fields_at.clear();
+  return job;
+}
+
+// A condition that series of one gas may differ in, and how good it is: the more the better.
+struct Condition {
+  Cause cause;
+  void (*neutralize)(schema::Job&);
+  double (*goodness)(const schema::Job&);
+  std::string (*text)(const schema::Job&);
+};
+
+const Condition conditions[] = {
+    {Cause::finite_size, [](schema::Job& job) { job.particles = 0; },
+     [](const schema::Job& job) { return static_cast<double>(job.particles); },
+     [](const schema::Job& job) { return "N = " + count_text(job.particles); }},
+    {Cause::equilibration, [](schema::Job& job) { job.equilibrate = 0; },
+     [](const schema::Job& job) { return job.equilibrate; },
+     [](const schema::Job& job) { return "equilibrate = " + number_text(job.equilibrate); }},
+};
+
+// Series that differ in the condition alone; of several with the same, the one of most
+// realizations.
+using Alternatives = std::map<double, const PilotSeries*>;  // by goodness
+
+std::vector<Alternatives> alternatives(const Condition& condition,
+                                       const std::vector<const PilotSeries*>& gas) {
+  std::map<std::string, Alternatives> groups;
+  for (const PilotSeries* series : gas) {
+    schema::Job job = unobserved(series->job);
+    condition.neutralize(job);
+    const PilotSeries*& place =
+        groups[schema::series_identity(job)][condition.goodness(series->job)];
+    if (place == nullptr || place->pilots.size() < series->pilots.size()) place = series;
+  }
+  std::vector<Alternatives> all;
+  for (auto& [key, group] : groups) all.push_back(std::move(group));
+  return all;
+}
+
+void add_condition_shifts(const Condition& condition, const Quantity& quantity,
+                          const std::vector<const PilotSeries*>& gas, std::vector<Shift>& shifts) {
+  for (const Alternatives& group : alternatives(condition, gas)) {
+    const PilotSeries& best = *group.rbegin()->second;
+    const auto reference = values_of(quantity, best);
+    if (reference.size() < 2) continue;
+    const Estimate better = analysis::estimate(reference);
+    for (const auto& [goodness, series] : group) {
+      const auto values = values_of(quantity, *series);
+      if (series == &best || values.size() < 2) continue;
+      const Estimate here = analysis::estimate(values);
+      shifts.push_back({.quantity = quantity,
+                        .job = series->job,
+                        .cause = condition.cause,
+                        .change = fmt::format("{}, not {}", condition.text(series->job),
+                                              condition.text(best.job)),
+                        .value = here.mean - better.mean,
+                        .error = std::hypot(here.standard_error, better.standard_error)});
+    }
+  }
+}
+
+// Differences within each realization, so that what chance does to both is not in their error.
+void add_paired_shift(const Quantity& quantity, const PilotSeries& series, Cause cause,
+                      const std::string& change,
+                      const std::function<std::optional<double>(const Pilot&)>& changed,
+                      std::vector<Shift>& shifts) {
+  std::vector<double> differences;
+  for (const Pilot& pilot : series.pilots) {
+    const auto as_it_is = value_of(quantity, series.job, pilot), other = changed(pilot);
+    if (as_it_is && other) differences.push_back(*other - *as_it_is);
+  }
+  if (differences.size() < 2) return;
+  const Estimate shift = analysis::estimate(differences);
+  shifts.push_back({.quantity = quantity,
+                    .job = series.job,
+                    .cause = cause,
+                    .change = change,
+                    .value = shift.mean,
+                    .error = shift.standard_error});
+}
+
+void add_sampling_shifts(const Quantity& quantity, const PilotSeries& series,
+                         std::vector<Shift>& shifts) {
+  const schema::Job& job = series.job;
+  if (quantity.measure == Measure::correlation) return;
+  for (const std::size_t every : thinned) {
+    const double interval = static_cast<double>(every) * job.sample_every;
+    const bool has_window = quantity.from < quantity.to;
+    if (has_window && interval > (quantity.to - quantity.from) / 2) continue;
+    add_paired_shift(
+        quantity, series, Cause::sampling,
+        fmt::format("a sample every {:g}, not {:g}", interval, job.sample_every),
+        [&](const Pilot& pilot) { return value_of(quantity, job, pilot, every); }, shifts);
+  }
+  if (quantity.from >= quantity.to) return;
+  const Quantity half = middle_half(quantity);
+  add_paired_shift(
+      quantity, series, Cause::averaging,
+      fmt::format("mean over tau {:g} to {:g}", half.from, half.to),
+      [&](const Pilot& pilot) { return value_of(half, job, pilot); }, shifts);
+}
+
+// The same states on wider cells, at the end of the runs.
+void add_mesh_shift(const PilotSeries& series, std::vector<Shift>& shifts) {
+  const auto& first = series.pilots.front().mesh;
+  if (!first) return;
+  const Quantity quantity{.measure = Measure::correlation,
+                          .from = first->usual.tau,
+                          .to = first->usual.tau,
+                          .r = correlation_r};
+  std::vector<double> differences;
+  for (const Pilot& pilot : series.pilots) {
+    if (!pilot.mesh || pilot.mesh->usual.tau != quantity.to) continue;
+    const auto usual = value_at(pilot.mesh->usual, quantity.r),
+               wide = value_at(pilot.mesh->wide, quantity.r);
+    if (usual && wide) differences.push_back(*wide - *usual);
+  }
+  if (differences.size() < 2) return;
+  const Estimate shift = analysis::estimate(differences);
+  shifts.push_back({.quantity = quantity,
+                    .job = series.job,
+                    .cause = Cause::mesh,
+                    .change = fmt::format("cells of {:g} sigma, not 1", wide_cell),
+                    .value = shift.mean,
+                    .error = shift.standard_error});
+}
+
+// ---- all --------------------------------------------------------------------------------------
+
+// Of those with the most particles in all realizations together the noise is least.
+const PilotSeries& quietest(const std::vector<const PilotSeries*>& gas) {
+  return **std::ranges::max_element(gas, {}, [](const PilotSeries* series) {
+    return static_cast<double>(series->job.particles) * static_cast<double>(series->pilots.size());
+  });
+}
+
+void assess_gas(const std::vector<const PilotSeries*>& gas, Assessment& assessment) {
+  for (const Quantity& quantity : quantities_of(gas)) {
+    for (const PilotSeries* series : gas)
+      if (auto statistics = statistics_of(quantity, *series))
+        assessment.statistics.push_back(*std::move(statistics));
+    for (const Condition& condition : conditions)
+      add_condition_shifts(condition, quantity, gas, assessment.shifts);
+    add_sampling_shifts(quantity, quietest(gas), assessment.shifts);
+  }
+  add_mesh_shift(quietest(gas), assessment.shifts);
+}
+
+}  // namespace
+
+std::string name(Cause cause) {
+  switch (cause) {
+    case Cause::finite_size:
+      return "finite size";
+    case Cause::equilibration:
+      return "equilibration";
+    case Cause::sampling:
+      return "sampling";
+    case Cause::averaging:
+      return "averaging";
+    case Cause::mesh:
+      return "mesh";
+  }
+  throw std::logic_error("unknown cause");
+}
+
+std::string gas_key(schema::Job job) {
+  job = unobserved(std::move(job));
+  for (const Condition& condition : conditions) condition.neutralize(job);
+  return schema::series_identity(job);
+}
+
+Assessment assess(const std::vector<PilotSeries>& all) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<const PilotSeries*>> gases;
+  for (const PilotSeries& series : all) {
+    auto& gas = gases[gas_key(series.job)];
+    if (gas.empty()) order.push_back(gas_key(series.job));
+    gas.push_back(&series);
+  }
+  Assessment assessment;
+  for (const std::string& key : order) assess_gas(gases[key], assessment);
+
+  for (const Cause cause :
+       {Cause::finite_size, Cause::equilibration, Cause::sampling, Cause::averaging, Cause::mesh})
+    if (std::ranges::none_of(assessment.shifts,
+                             [&](const Shift& shift) { return shift.cause == cause; }))
+      assessment.unknown.push_back(cause);
+  return assessment;
+}
+
+double finite_size_error(const Assessment& assessment, const Statistics& statistics) {
+  const auto found = std::ranges::find_if(assessment.shifts, [&](const Shift& shift) {
+    return shift.cause == Cause::finite_size && shift.quantity == statistics.quantity &&
+           schema::series_identity(unobserved(shift.job)) ==
+               schema::series_identity(unobserved(statistics.job));
+  });
+  if (found == assessment.shifts.end()) return 0;
+  return std::sqrt(std::max(0.0, found->value * found->value - found->error * found->error));
+}
+
+std::optional<Offer> cheapest(const Assessment& assessment, const std::string& gas,
+                              const Quantity& quantity, double target) {
+  std::optional<Offer> best;
+  for (const Statistics& each : assessment.statistics) {
+    if (each.quantity != quantity || gas_key(each.job) != gas || each.realizations < 2) continue;
+    const double bias = finite_size_error(assessment, each);
+    if (bias >= target || !(each.deviation > 0)) continue;
+    const auto realizations =
+        analysis::realizations_needed(each.deviation, std::sqrt(target * target - bias * bias));
+    const double cost = static_cast<double>(realizations) * each.cpu_seconds;
+    if (!best || cost < best->cpu_seconds)
+      best = Offer{
+          .job = each.job, .realizations = realizations, .cpu_seconds = cost, .finite_size = bias};
+  }
+  return best;
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,69 @@
+// How accurate a store's results are, where the errors come from, and what less of them would cost.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/accuracy.hpp"
+#include "campaign/quantity.hpp"
+
+namespace haff::campaign {
+
+// A quantity in one series: what chance leaves open.
+struct Statistics {
+  Quantity quantity;
+  schema::Job job;
+  std::size_t realizations = 0;
+  double mean = 0;
+  double error = 0;  // standard error; of one realization from blocks of samples, NaN if none
+  double half_interval = 0;  // of 95 %, Student's; NaN for one realization
+  double deviation = 0;      // of one realization; NaN for one
+  double cpu_seconds = 0;    // of one realization, as far as the quantity needs it
+  std::optional<double> correlation_time = {};  // [tau], where the error comes from blocks
+  std::vector<analysis::GroupScatter> scatter = {};
+  std::optional<analysis::Slope> slope = {};  // of scatter; -1/2 for independent realizations
+};
+
+// What moves a mean, whatever the number of realizations.
+enum class Cause { finite_size, equilibration, sampling, averaging, mesh };
+
+std::string name(Cause cause);
+
+// The mean under a condition less the mean under a better one.
+struct Shift {
+  Quantity quantity;
+  schema::Job job;  // of the condition
+  Cause cause = Cause::finite_size;
+  std::string change;  // "N = 4 000, not 32 000"
+  double value = 0;
+  double error = 0;  // standard error of value
+};
+
+struct Assessment {
+  std::vector<Statistics> statistics;  // by gas, quantity, series
+  std::vector<Shift> shifts;
+  std::vector<Cause> unknown;  // causes that the store says nothing of
+};
+
+Assessment assess(const std::vector<PilotSeries>& all);
+
+// The same gas: equal in d, e, n and effects, whatever its size, preparation and sampling.
+std::string gas_key(schema::Job job);
+
+// The finite size of the gas as an error beside that of chance: its shift less what chance would
+// make of none, 0 where the largest gas is meant or the shift is within its error.
+double finite_size_error(const Assessment& assessment, const Statistics& statistics);
+
+// The cheapest way to a standard error, finite size included.
+struct Offer {
+  schema::Job job;
+  std::size_t realizations = 0;
+  double cpu_seconds = 0;
+  double finite_size = 0;  // part of the error
+};
+// `gas` names one, by its key. Nothing if no size of it has two realizations, or each is too small.
+std::optional<Offer> cheapest(const Assessment& assessment, const std::string& gas,
+                              const Quantity& quantity, double target);
+
+}  // namespace haff::campaign

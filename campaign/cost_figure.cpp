@@ -1,0 +1,187 @@
+#include "campaign/cost_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "campaign/figure.hpp"
+#include "campaign/gnuplot.hpp"
+#include "campaign/plot.hpp"
+#include "campaign/text_table.hpp"
+
+namespace haff::campaign {
+namespace {
+
+// Four panels, two by two: left, right, bottom, top.
+constexpr std::array<std::array<double, 4>, 4> frames = {{{0.11, 0.48, 0.61, 0.955},
+                                                          {0.62, 0.99, 0.61, 0.955},
+                                                          {0.11, 0.48, 0.20, 0.535},
+                                                          {0.62, 0.99, 0.20, 0.535}}};
+
+// What the panels show, where the gas has it.
+bool is_shown(const Quantity& quantity) {
+  switch (quantity.measure) {
+    case Measure::a2:
+    case Measure::ln_temperature:
+    case Measure::tau_c:
+      return true;
+    case Measure::gamma_ratio:
+      return quantity.from < 10;  // the first of the two
+    default:
+      return false;
+  }
+}
+
+std::string label(const Quantity& quantity) {
+  switch (quantity.measure) {
+    case Measure::gamma_ratio:
+      return fmt::format("error of {{/:Italic γ}}/{{/:Italic γ}}_0, {{/:Italic τ}} = {:g}…{:g}",
+                         quantity.from, quantity.to);
+    case Measure::ln_temperature:
+      return fmt::format("error of ln {{/:Italic T}}, {{/:Italic τ}} = {:g}", quantity.to);
+    case Measure::tau_c:
+      return "error of {/:Italic τ}_c";
+    default:
+      return fmt::format("error of {{/:Italic a}}_2, {{/:Italic τ}} = {:g}…{:g}", quantity.from,
+                         quantity.to);
+  }
+}
+
+using Members = std::vector<const Statistics*>;
+
+// By size, those of one preparation: the default one, or whatever there is of that size.
+Members one_each_size(const Members& all) {
+  std::map<std::uint32_t, const Statistics*> sizes;
+  for (const Statistics* each : all) {
+    const Statistics*& place = sizes[each->job.particles];
+    if (place == nullptr || place->realizations < each->realizations) place = each;
+  }
+  Members chosen;
+  for (const auto& [particles, each] : sizes) chosen.push_back(each);
+  return chosen;
+}
+
+struct Reach {
+  double low = 0, high = 0;
+  void include(double x) {
+    if (!(x > 0)) return;
+    low = low > 0 ? std::min(low, x) : x;
+    high = std::max(high, x);
+  }
+};
+
+// The measured scatter of one series and the line of slope -1/2 through all its realizations.
+void add_series(const Assessment& assessment, const Statistics& each, const std::string& ink,
+                bool named, Reach& time, Reach& error, std::vector<Curve>& curves) {
+  Curve points{.name = "scatter", .particles = each.job.particles};
+  points.look = Look::symbols;
+  points.colour = ink;
+  if (named) points.legend = fmt::format("{{/:Italic N}} = {}", count_text(each.job.particles));
+  for (const analysis::GroupScatter& group : each.scatter) {
+    points.x.push_back(static_cast<double>(group.size) * each.cpu_seconds);
+    points.y.push_back(group.scatter);
+    points.error.push_back(group.error);
+    time.include(points.x.back());
+    error.include(group.scatter);
+  }
+  const double all = static_cast<double>(each.realizations) * each.cpu_seconds;
+  time.include(all);
+  error.include(each.error);
+
+  constexpr double beyond = 100;  // what more CPU time would give
+  Curve line{.name = "-1/2", .particles = each.job.particles};
+  line.colour = ink;
+  line.x = {each.cpu_seconds, beyond * all};
+  for (const double x : line.x) line.y.push_back(each.deviation * std::sqrt(each.cpu_seconds / x));
+  time.include(line.x.back());
+  error.include(line.y.back());
+
+  Curve floor{.name = "finite size", .particles = each.job.particles};
+  floor.look = Look::dashed;
+  floor.colour = ink;
+  if (const double size = finite_size_error(assessment, each); size > 0) {
+    floor.x = line.x;
+    floor.y = {size, size};
+    error.include(size);
+  }
+  curves.insert(curves.end(), {line, points, floor});
+}
+
+Panel panel_of(const Assessment& assessment, const Members& members, std::size_t place) {
+  const Quantity& quantity = members.front()->quantity;
+  Panel panel{.name = name(quantity.measure),
+              .x = {.label = place >= 2 ? "CPU time [s]" : "",
+                    .column = "cpu_seconds",
+                    .logarithmic = true},
+              .y = {.label = label(quantity), .column = "error", .logarithmic = true},
+              .legend = place == 0 ? "bottom left" : "none",
+              .small = true,
+              .frame = frames[place]};
+  Reach time, error;
+  const auto chosen = one_each_size(members);
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    add_series(assessment, *chosen[k], colour(k, chosen.size()), place == 0, time, error,
+               panel.curves);
+  constexpr double room = 1.6;
+  panel.x.low = time.low / room;
+  panel.x.high = time.high * room;
+  panel.y.low = error.low / room;
+  panel.y.high = error.high * room;
+  for (Axis* axis : {&panel.x, &panel.y})
+    axis->tics = *axis->high / *axis->low > 1e4 ? "100" : "10";
+  return panel;
+}
+
+}  // namespace
+
+std::vector<std::string> draw_cost(const Assessment& assessment,
+                                   const std::filesystem::path& folder) {
+  struct Gas {
+    schema::Job job;
+    std::vector<Members> quantities;
+  };
+  std::vector<std::string> order;
+  std::map<std::string, Gas> gases;
+  for (const Statistics& each : assessment.statistics) {
+    if (!is_shown(each.quantity) || each.scatter.empty() || !(each.deviation > 0) ||
+        !(each.cpu_seconds > 0))
+      continue;
+    const std::string key = gas_key(each.job);
+    Gas& gas = gases[key];
+    if (gas.quantities.empty()) {
+      gas.job = each.job;
+      order.push_back(key);
+    }
+    if (gas.quantities.empty() || gas.quantities.back().front()->quantity != each.quantity)
+      gas.quantities.emplace_back();
+    gas.quantities.back().push_back(&each);
+  }
+
+  std::vector<std::string> written;
+  for (const std::string& key : order) {
+    const Gas& gas = gases[key];
+    Plot plot;
+    for (const Members& members : gas.quantities)
+      if (plot.panels.size() < frames.size())
+        plot.panels.push_back(panel_of(assessment, members, plot.panels.size()));
+    plot.caption = fmt::format(
+        "n = {}, e = {}. Symbols: standard deviation of the means of disjoint groups of "
+        "realizations, with its error. Lines: slope −1/2, as of independent realizations. Dashed: "
+        "shift of finite size, where it is seen.",
+        density_text(gas.job.n), restitution_text(gas.job.e));
+    const std::string stem =
+        fmt::format("cost-e{}-n{}", restitution_text(gas.job.e), density_text(gas.job.n));
+    const auto svg = folder / (stem + ".svg"), png = folder / (stem + ".png");
+    run_gnuplot(gnuplot_script(plot, svg, Format::svg));
+    finish_svg(plot, svg);
+    run_gnuplot(gnuplot_script(plot, png, Format::png));
+    written.push_back(svg.string());
+    written.push_back(png.string());
+  }
+  return written;
+}
+
+}  // namespace haff::campaign

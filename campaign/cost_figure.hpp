@@ -1,0 +1,17 @@
+// Error against CPU time, log-log, a picture a gas: measured scatter of group means, the line of
+// slope -1/2, and the shift of finite size, which no CPU time removes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "campaign/assessment.hpp"
+
+namespace haff::campaign {
+
+// SVG and PNG; returns their names. Throws GnuplotMissing.
+std::vector<std::string> draw_cost(const Assessment& assessment,
+                                   const std::filesystem::path& folder);
+
+}  // namespace haff::campaign

@@ -1,0 +1,43 @@
+// Runs that are done, with what they cost: what accuracy and its price are judged from.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+// G_parallel of one state from the usual cells of one sigma, and from wider ones.
+inline constexpr double wide_cell = 2;  // [sigma]
+struct MeshTrial {
+  schema::Profile usual, wide;
+};
+
+// One finished realization.
+struct Pilot {
+  std::uint64_t seed = 0;
+  double tau_max = 0;
+  double cpu_seconds = 0;                // of cooling from 0 to tau_max
+  double equilibration_cpu_seconds = 0;  // of what it started from, which other e may share
+  std::optional<double> tau_c = {};
+  std::vector<schema::Sample> samples = {};        // by tau
+  std::vector<schema::Profile> correlations = {};  // G_parallel, by tau
+  std::optional<MeshTrial> mesh = {};              // where correlations are measured
+};
+
+struct PilotSeries {
+  schema::Job job;            // of its first realization
+  std::vector<Pilot> pilots;  // by seed, at least one
+};
+
+// All finished cooling jobs, series by series in the order of tables.
+std::vector<PilotSeries> read_pilots(const schema::Reader& store);
+
+// Those of these series only, named by schema::series_identity, and without their correlations.
+std::vector<PilotSeries> read_pilots(const schema::Reader& store,
+                                     const std::set<std::string>& wanted);
+
+}  // namespace haff::campaign

@@ -1,0 +1,244 @@
+#include "campaign/targets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "analysis/accuracy.hpp"
+#include "campaign/duration.hpp"
+#include "campaign/forecast.hpp"
+#include "campaign/job_text.hpp"
+#include "campaign/pilots.hpp"
+#include "campaign/quantity.hpp"
+#include "campaign/text_table.hpp"
+
+namespace haff::campaign {
+namespace {
+
+using analysis::Estimate;
+
+// The jobs of one series.
+struct Runs {
+  std::vector<schema::JobRow> rows;
+  std::size_t open = 0;  // pending or running
+};
+
+std::map<std::string, Runs> runs_by_series(const schema::Reader& store) {
+  std::map<std::string, Runs> all;
+  for (schema::JobRow& row : store.jobs()) {
+    if (row.job.kind != schema::Kind::cooling) continue;
+    Runs& runs = all[schema::series_identity(row.job)];
+    runs.open += row.status == schema::Status::pending || row.status == schema::Status::running;
+    runs.rows.push_back(std::move(row));
+  }
+  return all;
+}
+
+Quantity quantity_of(const schema::Target& target) {
+  return {.measure = measure_named(target.quantity).value(),
+          .from = target.tau_from,
+          .to = target.tau_to};
+}
+
+double mean_cpu_seconds(const PilotSeries& series) {
+  double sum = 0;
+  for (const Pilot& pilot : series.pilots)
+    sum += pilot.cpu_seconds + pilot.equilibration_cpu_seconds;
+  return sum / static_cast<double>(series.pilots.size());
+}
+
+// What the finished realizations say of a target.
+struct Values {
+  std::vector<double> all, of_pilots;
+  std::size_t without = 0;  // realizations that have no such value
+};
+
+Values values_of(const schema::Target& target, const PilotSeries& series) {
+  Values values;
+  for (const Pilot& pilot : series.pilots) {
+    const auto value = value_of(quantity_of(target), series.job, pilot);
+    if (!value) {
+      ++values.without;
+      continue;
+    }
+    values.all.push_back(*value);
+    if (std::ranges::count(target.pilots, pilot.seed) > 0) values.of_pilots.push_back(*value);
+  }
+  return values;
+}
+
+std::string reason_for(const schema::Target& target, const Values& values,
+                       const PilotSeries& series) {
+  if (values.without == 0) return "a pilot run did not end as done";
+  return fmt::format("{} of {} runs have no {}{}", values.without, series.pilots.size(),
+                     target.quantity, target.quantity == "tau_c" ? ": plan a larger tau_max" : "");
+}
+
+void judge(TargetProgress& progress, const Runs& runs, const PilotSeries& series) {
+  const schema::Target& target = progress.target;
+  const Values values = values_of(target, series);
+  if (!values.all.empty()) progress.estimate = analysis::estimate(values.all);
+  if (values.all.size() >= 2) {
+    const double deviation = analysis::standard_deviation(progress.estimate);
+    progress.expected = std::max(
+        {analysis::realizations_needed(deviation, target.se), runs.rows.size(), values.all.size()});
+    progress.cpu_seconds =
+        mean_cpu_seconds(series) * static_cast<double>(progress.expected - runs.rows.size());
+  }
+  const bool pilots_done = values.of_pilots.size() == target.pilots.size();
+  if (pilots_done)
+    progress.half_interval = analysis::student_t(target.pilots.size() - 1) *
+                             analysis::standard_deviation(analysis::estimate(values.of_pilots)) /
+                             std::sqrt(static_cast<double>(values.all.size()));
+  if (runs.open > 0) return;  // waiting
+
+  if (!pilots_done || values.without > 0) {
+    progress.verdict = Verdict::unreachable;
+    progress.reason = reason_for(target, values, series);
+    progress.cpu_seconds = 0;
+    return;
+  }
+  progress.next = analysis::next_realizations(progress.estimate, target.se);
+  progress.verdict = progress.next > values.all.size() ? Verdict::short_of : Verdict::met;
+  if (progress.verdict == Verdict::met) progress.cpu_seconds = 0;
+}
+
+std::string verdict_text(const TargetProgress& progress) {
+  const std::string text = name(progress.verdict);
+  return progress.reason.empty() ? text : text + ": " + progress.reason;
+}
+
+// A realization and, unless it is there, its equilibration.
+std::vector<schema::Planned> realization(const schema::JobRow& like, std::uint64_t seed,
+                                         const schema::Reader& store, Forecast& forecast) {
+  schema::Job job = like.job;
+  job.seed = seed;
+  std::vector<schema::Planned> plan{
+      {.job = schema::equilibration_of(job),
+       .tau_max = job.equilibrate,
+       .checkpoint_every = like.checkpoint_every},
+      {.job = job, .tau_max = like.tau_max, .checkpoint_every = like.checkpoint_every}};
+  if (store.find(plan.front().job)) plan.erase(plan.begin());
+  for (schema::Planned& each : plan) each.expected_cpu_seconds = forecast.cpu_seconds(each);
+  return plan;
+}
+
+}  // namespace
+
+std::string name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::waiting:
+      return "waits for runs";
+    case Verdict::short_of:
+      return "not met yet";
+    case Verdict::met:
+      return "met";
+    case Verdict::unreachable:
+      return "cannot be met";
+  }
+  throw std::logic_error("unknown verdict");
+}
+
+std::vector<TargetProgress> progress_of(const schema::Reader& store,
+                                        const std::vector<schema::Target>& targets) {
+  if (targets.empty()) return {};
+  std::set<std::string> wanted;
+  for (const schema::Target& target : targets) wanted.insert(target.series);
+  const auto runs = runs_by_series(store);
+  std::map<std::string, PilotSeries> finished;
+  for (PilotSeries& series : read_pilots(store, wanted))
+    finished.emplace(schema::series_identity(series.job), std::move(series));
+
+  std::vector<TargetProgress> all;
+  for (const schema::Target& target : targets) {
+    const auto found = runs.find(target.series);
+    if (found == runs.end()) continue;  // only tried out: nothing is planned of it
+    TargetProgress progress{.target = target, .job = found->second.rows.front().job};
+    progress.planned = found->second.rows.size();
+    const auto pilots = finished.find(target.series);
+    judge(
+        progress, found->second,
+        pilots != finished.end() ? pilots->second : PilotSeries{.job = progress.job, .pilots = {}});
+    all.push_back(std::move(progress));
+  }
+  return all;
+}
+
+double cpu_seconds_unplanned(const std::vector<TargetProgress>& targets) {
+  std::map<std::string, double> by_series;
+  for (const TargetProgress& each : targets) {
+    double& most = by_series[each.target.series];
+    most = std::max(most, each.cpu_seconds);
+  }
+  double sum = 0;
+  for (const auto& [series, seconds] : by_series) sum += seconds;
+  return sum;
+}
+
+std::string targets_table(const std::vector<TargetProgress>& targets) {
+  if (targets.empty()) return "";
+  TextTable table({{"target", Align::left},
+                   {"e"},
+                   {"n"},
+                   {"N"},
+                   {"wanted"},
+                   {"mean"},
+                   {"error"},
+                   {"95 % interval"},
+                   {"runs"},
+                   {"expected"},
+                   {"to plan"},
+                   {"", Align::left}});
+  for (const TargetProgress& each : targets) {
+    const Estimate& estimate = each.estimate;
+    table.add({describe(quantity_of(each.target)), number_text(each.job.e), number_text(each.job.n),
+               count_text(each.job.particles), fmt::format("{:.1e}", each.target.se),
+               estimate.count > 0 ? value_text(estimate.mean, estimate.standard_error) : no_value,
+               estimate.count > 1 ? fmt::format("{:.1e}", estimate.standard_error) : no_value,
+               each.half_interval ? fmt::format("± {:.1e}", *each.half_interval) : no_value,
+               count_text(static_cast<long long>(estimate.count)),
+               each.expected > 0 ? count_text(static_cast<long long>(each.expected)) : no_value,
+               each.cpu_seconds > 0 ? duration_text(each.cpu_seconds) : no_value,
+               verdict_text(each)});
+  }
+  return table.text();
+}
+
+int add_realizations(schema::Store& store, std::optional<double> affordable) {
+  // Targets of one series are served by the same realizations.
+  std::map<std::string, std::size_t> missing;
+  for (const TargetProgress& each : progress_of(store, store.targets()))
+    if (each.verdict == Verdict::short_of) {
+      std::size_t& most = missing[each.target.series];
+      most = std::max(most, each.next - each.estimate.count);
+    }
+  if (missing.empty()) return 0;
+
+  const auto runs = runs_by_series(store);
+  Forecast forecast(store.jobs());
+  int added = 0;
+  for (const auto& [series, count] : missing) {
+    const auto& rows = runs.at(series).rows;
+    std::set<std::uint64_t> taken;
+    for (const schema::JobRow& row : rows) taken.insert(row.job.seed);
+    std::uint64_t seed = 1;
+    for (std::size_t k = 0; k < count; ++k) {
+      while (taken.contains(seed)) ++seed;
+      taken.insert(seed);
+      const auto plan = realization(rows.front(), seed, store, forecast);
+      if (affordable) {
+        for (const schema::Planned& each : plan) *affordable -= *each.expected_cpu_seconds;
+        if (*affordable < 0) return added;
+      }
+      store.add(plan);
+      ++added;
+    }
+  }
+  return added;
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,50 @@
+// Targets: how far the standard errors asked for are, and the seeds that bring them there.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/statistics.hpp"
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+enum class Verdict {
+  waiting,     // for runs that are planned: pilots first
+  short_of,    // more realizations would help
+  met,         // the standard error is what was asked for, or smaller
+  unreachable  // more realizations would not help
+};
+
+std::string name(Verdict verdict);
+
+struct TargetProgress {
+  schema::Target target;
+  schema::Job job;  // of any realization
+  Verdict verdict = Verdict::waiting;
+  std::string reason = {};                   // why it is unreachable
+  analysis::Estimate estimate = {};          // of all realizations so far; count 0: none yet
+  std::optional<double> half_interval = {};  // of 95 %, once the pilots are done
+  std::size_t planned = 0;                   // realizations there are jobs for
+  std::size_t next = 0;                      // realizations to have before looking again
+  std::size_t expected = 0;  // in all, as the scatter so far has it; 0: not known yet
+  double cpu_seconds = 0;    // that those not yet planned will take
+};
+
+// In the order given.
+std::vector<TargetProgress> progress_of(const schema::Reader& store,
+                                        const std::vector<schema::Target>& targets);
+
+// CPU time of all realizations not yet planned. Those of one series serve all its targets.
+double cpu_seconds_unplanned(const std::vector<TargetProgress>& targets);
+
+// For people. Empty if there are none.
+std::string targets_table(const std::vector<TargetProgress>& targets);
+
+// Plans what the targets need next, as far as `affordable` CPU seconds go. Returns how many cooling
+// jobs were added.
+int add_realizations(schema::Store& store, std::optional<double> affordable);
+
+}  // namespace haff::campaign

@@ -1,0 +1,24 @@
+// A standard error that a series is to reach by as many realizations as it takes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace haff::schema {
+
+// The interval about the mean rests on the scatter of the pilot runs (analysis/accuracy.hpp), which
+// fewer know too badly: 5 make it 2.8 standard errors to either side instead of 2, 3 would 4.3, and
+// their forecast of how many realizations there will be is right within a factor of about 2.
+inline constexpr std::size_t fewest_pilots = 5;
+
+struct Target {
+  std::string series;                      // identity of its jobs, without the seed
+  std::string quantity;                    // a2, a3, a4, gamma_ratio or tau_c
+  double tau_from = 0, tau_to = 0;         // window of the mean; 0, 0 for tau_c
+  double se = 0;                           // standard error to reach
+  std::vector<std::uint64_t> pilots = {};  // seeds the interval rests on
+};
+
+}  // namespace haff::schema
