@@ -149,6 +149,7 @@ std::vector<Alternatives> alternatives(const Condition& condition,
     if (place == nullptr || place->pilots.size() < series->pilots.size()) place = series;
   }
   std::vector<Alternatives> all;
+  all.reserve(groups.size());
   for (auto& [key, group] : groups) all.push_back(std::move(group));
   return all;
 }
@@ -187,6 +188,7 @@ void add_paired_shift(const Quantity& quantity, const PilotSeries& series, Cause
   }
   if (differences.size() < 2) return;
   const Estimate shift = analysis::estimate(differences);
+  if (shift.mean == 0 && shift.standard_error == 0) return;  // it looks at the same samples
   shifts.push_back({.quantity = quantity,
                     .job = series.job,
                     .cause = cause,
@@ -224,19 +226,22 @@ void add_mesh_shift(const PilotSeries& series, std::vector<Shift>& shifts) {
                           .from = first->usual.tau,
                           .to = first->usual.tau,
                           .r = correlation_r};
-  std::vector<double> differences;
+  std::vector<double> values, differences;
   for (const Pilot& pilot : series.pilots) {
     if (!pilot.mesh || pilot.mesh->usual.tau != quantity.to) continue;
     const auto usual = value_at(pilot.mesh->usual, quantity.r),
                wide = value_at(pilot.mesh->wide, quantity.r);
-    if (usual && wide) differences.push_back(*wide - *usual);
+    if (!usual || !wide) continue;
+    values.push_back(*usual);
+    differences.push_back(*wide - *usual);
   }
   if (differences.size() < 2) return;
   const Estimate shift = analysis::estimate(differences);
   shifts.push_back({.quantity = quantity,
                     .job = series.job,
                     .cause = Cause::mesh,
-                    .change = fmt::format("cells of {:g} sigma, not 1", wide_cell),
+                    .change = fmt::format("cells of {:g} sigma, not 1, of {:.1e}", wide_cell,
+                                          analysis::estimate(values).mean),
                     .value = shift.mean,
                     .error = shift.standard_error});
 }
@@ -305,14 +310,19 @@ Assessment assess(const std::vector<PilotSeries>& all) {
   return assessment;
 }
 
-double finite_size_error(const Assessment& assessment, const Statistics& statistics) {
+const Shift* finite_size_shift(const Assessment& assessment, const Statistics& statistics) {
   const auto found = std::ranges::find_if(assessment.shifts, [&](const Shift& shift) {
     return shift.cause == Cause::finite_size && shift.quantity == statistics.quantity &&
-           schema::series_identity(unobserved(shift.job)) ==
-               schema::series_identity(unobserved(statistics.job));
+           shift.job.particles == statistics.job.particles &&
+           gas_key(shift.job) == gas_key(statistics.job);
   });
-  if (found == assessment.shifts.end()) return 0;
-  return std::sqrt(std::max(0.0, found->value * found->value - found->error * found->error));
+  return found == assessment.shifts.end() ? nullptr : &*found;
+}
+
+double finite_size_error(const Assessment& assessment, const Statistics& statistics) {
+  const Shift* shift = finite_size_shift(assessment, statistics);
+  if (shift == nullptr) return 0;
+  return std::sqrt(std::max(0.0, shift->value * shift->value - shift->error * shift->error));
 }
 
 std::optional<Offer> cheapest(const Assessment& assessment, const std::string& gas,
@@ -320,7 +330,10 @@ std::optional<Offer> cheapest(const Assessment& assessment, const std::string& g
   std::optional<Offer> best;
   for (const Statistics& each : assessment.statistics) {
     if (each.quantity != quantity || gas_key(each.job) != gas || each.realizations < 2) continue;
-    const double bias = finite_size_error(assessment, each);
+    // A shift that is not seen may still be as large as its error.
+    double bias = finite_size_error(assessment, each);
+    if (const Shift* shift = finite_size_shift(assessment, each))
+      bias = std::max(bias, shift->error);
     if (bias >= target || !(each.deviation > 0)) continue;
     const auto realizations =
         analysis::realizations_needed(each.deviation, std::sqrt(target * target - bias * bias));

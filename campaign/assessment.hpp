@@ -51,11 +51,15 @@ Assessment assess(const std::vector<PilotSeries>& all);
 // The same gas: equal in d, e, n and effects, whatever its size, preparation and sampling.
 std::string gas_key(schema::Job job);
 
+// The shift of gases of this size, whatever their preparation; nothing for the largest.
+const Shift* finite_size_shift(const Assessment& assessment, const Statistics& statistics);
+
 // The finite size of the gas as an error beside that of chance: its shift less what chance would
 // make of none, 0 where the largest gas is meant or the shift is within its error.
 double finite_size_error(const Assessment& assessment, const Statistics& statistics);
 
-// The cheapest way to a standard error, finite size included.
+// The cheapest way to a standard error, finite size included: as large as it is seen to be, and at
+// least as the error of its shift. The largest gas stands for an infinite one.
 struct Offer {
   schema::Job job;
   std::size_t realizations = 0;

@@ -15,17 +15,15 @@
 namespace haff::campaign {
 namespace {
 
-// Four panels, two by two: left, right, bottom, top.
-constexpr std::array<std::array<double, 4>, 4> frames = {{{0.11, 0.48, 0.61, 0.955},
-                                                          {0.62, 0.99, 0.61, 0.955},
-                                                          {0.11, 0.48, 0.20, 0.535},
-                                                          {0.62, 0.99, 0.20, 0.535}}};
+// Three panels in a row: left, right, bottom, top.
+constexpr int picture_width = 960;
+constexpr std::array<std::array<double, 4>, 3> frames = {
+    {{0.112, 0.337, 0.215, 0.965}, {0.445, 0.67, 0.215, 0.965}, {0.765, 0.99, 0.215, 0.965}}};
 
 // What the panels show, where the gas has it.
 bool is_shown(const Quantity& quantity) {
   switch (quantity.measure) {
     case Measure::a2:
-    case Measure::ln_temperature:
     case Measure::tau_c:
       return true;
     case Measure::gamma_ratio:
@@ -40,8 +38,6 @@ std::string label(const Quantity& quantity) {
     case Measure::gamma_ratio:
       return fmt::format("error of {{/:Italic γ}}/{{/:Italic γ}}_0, {{/:Italic τ}} = {:g}…{:g}",
                          quantity.from, quantity.to);
-    case Measure::ln_temperature:
-      return fmt::format("error of ln {{/:Italic T}}, {{/:Italic τ}} = {:g}", quantity.to);
     case Measure::tau_c:
       return "error of {/:Italic τ}_c";
     default:
@@ -62,6 +58,23 @@ Members one_each_size(const Members& all) {
   Members chosen;
   for (const auto& [particles, each] : sizes) chosen.push_back(each);
   return chosen;
+}
+
+// One colour a size, in all panels.
+using Inks = std::map<std::uint32_t, std::string>;
+
+Inks inks_of(const std::vector<Members>& quantities) {
+  Inks inks;
+  for (const Members& members : quantities)
+    for (const Statistics* each : members) inks[each->job.particles] = "";
+  std::size_t place = 0;
+  for (auto& [particles, ink] : inks) ink = colour(place++, inks.size());
+  return inks;
+}
+
+// A shift of more than two of its errors.
+bool is_seen(const Shift& shift) {
+  return std::abs(shift.value) > 2 * shift.error;
 }
 
 struct Reach {
@@ -102,7 +115,8 @@ void add_series(const Assessment& assessment, const Statistics& each, const std:
   Curve floor{.name = "finite size", .particles = each.job.particles};
   floor.look = Look::dashed;
   floor.colour = ink;
-  if (const double size = finite_size_error(assessment, each); size > 0) {
+  if (const Shift* shift = finite_size_shift(assessment, each); shift && is_seen(*shift)) {
+    const double size = std::abs(shift->value);
     floor.x = line.x;
     floor.y = {size, size};
     error.include(size);
@@ -110,25 +124,23 @@ void add_series(const Assessment& assessment, const Statistics& each, const std:
   curves.insert(curves.end(), {line, points, floor});
 }
 
-Panel panel_of(const Assessment& assessment, const Members& members, std::size_t place) {
+Panel panel_of(const Assessment& assessment, const Members& members, const Inks& inks,
+               std::size_t place) {
   const Quantity& quantity = members.front()->quantity;
   Panel panel{.name = name(quantity.measure),
-              .x = {.label = place >= 2 ? "CPU time [s]" : "",
-                    .column = "cpu_seconds",
-                    .logarithmic = true},
+              .x = {.label = "CPU time [s]", .column = "cpu_seconds", .logarithmic = true},
               .y = {.label = label(quantity), .column = "error", .logarithmic = true},
               .legend = place == 0 ? "bottom left" : "none",
               .small = true,
               .frame = frames[place]};
   Reach time, error;
-  const auto chosen = one_each_size(members);
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-    add_series(assessment, *chosen[k], colour(k, chosen.size()), place == 0, time, error,
+  for (const Statistics* each : one_each_size(members))
+    add_series(assessment, *each, inks.at(each->job.particles), place == 0, time, error,
                panel.curves);
-  constexpr double room = 1.6;
+  constexpr double room = 1.6, room_for_legend = 30;
   panel.x.low = time.low / room;
   panel.x.high = time.high * room;
-  panel.y.low = error.low / room;
+  panel.y.low = error.low / (place == 0 ? room_for_legend : room);
   panel.y.high = error.high * room;
   for (Axis* axis : {&panel.x, &panel.y})
     axis->tics = *axis->high / *axis->low > 1e4 ? "100" : "10";
@@ -164,9 +176,11 @@ std::vector<std::string> draw_cost(const Assessment& assessment,
   for (const std::string& key : order) {
     const Gas& gas = gases[key];
     Plot plot;
+    plot.width = picture_width;
+    const Inks inks = inks_of(gas.quantities);
     for (const Members& members : gas.quantities)
       if (plot.panels.size() < frames.size())
-        plot.panels.push_back(panel_of(assessment, members, plot.panels.size()));
+        plot.panels.push_back(panel_of(assessment, members, inks, plot.panels.size()));
     plot.caption = fmt::format(
         "n = {}, e = {}. Symbols: standard deviation of the means of disjoint groups of "
         "realizations, with its error. Lines: slope −1/2, as of independent realizations. Dashed: "
