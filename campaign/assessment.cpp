@@ -53,9 +53,9 @@ std::vector<Quantity> quantities_of(const std::vector<const PilotSeries*>& gas) 
     all.push_back(
         {.measure = Measure::gamma_ratio, .from = tau - decay_reach, .to = tau + decay_reach});
   const schema::Job& job = gas.front()->job;
-  if (job.d == 3 && job.e < 1) {
+  if (job.d == 3 && cools_by_haff(job) && *job.e < 1) {
     // One tau for all sizes, whatever their own tau_c.
-    const double tau = std::round(analysis::energy_equation_tau_c({.e = job.e, .n = job.n}));
+    const double tau = std::round(analysis::energy_equation_tau_c({.e = *job.e, .n = job.n}));
     all.push_back({.measure = Measure::ln_temperature, .from = tau, .to = tau});
   }
   all.push_back({.measure = Measure::tau_c});

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <system_error>
 
 #include "campaign/assessment.hpp"
@@ -69,7 +70,7 @@ void print_statistics(const Assessment& assessment, std::ostream& report) {
       rest += fmt::format("{}equilibrate {:g}", rest.empty() ? "" : ", ", each.job.equilibrate);
     if (each.job.effects != schema::Job{}.effects)
       rest += (rest.empty() ? "" : ", ") + each.job.effects;
-    table.add({describe(each.quantity), number_text(each.job.e), number_text(each.job.n),
+    table.add({describe(each.quantity), e_text(each.job), number_text(each.job.n),
                count_text(each.job.particles),
                count_text(static_cast<long long>(each.realizations)),
                value_text(each.mean, each.error), error_text(each.error),
@@ -97,7 +98,7 @@ void print_shifts(const Assessment& assessment, std::ostream& report) {
                    {"in errors"},
                    {"", Align::left}});
   for (const Shift& each : assessment.shifts)
-    table.add({describe(each.quantity), number_text(each.job.e), number_text(each.job.n),
+    table.add({describe(each.quantity), e_text(each.job), number_text(each.job.n),
                count_text(each.job.particles), name(each.cause), fmt::format("{:+.1e}", each.value),
                error_text(each.error),
                each.error > 0 ? fmt::format("{:+.1f}", each.value / each.error) : no_value,
@@ -170,7 +171,7 @@ void print_advice(const std::vector<Advice>& all, Forecast& forecast, std::ostre
                    {"CPU time"},
                    {"memory"}});
   for (const Advice& each : all) {
-    std::vector<std::string> cells{describe(each.quantity), number_text(each.job.e),
+    std::vector<std::string> cells{describe(each.quantity), e_text(each.job),
                                    number_text(each.job.n), error_text(each.target)};
     if (each.offer)
       cells.insert(cells.end(), {count_text(each.offer->job.particles),
@@ -200,8 +201,9 @@ void write_csv(const Assessment& assessment, const std::vector<Advice>& advised,
   const auto begin = [&](const char* row, const Quantity& q, const schema::Job& job,
                          const std::string& cause) {
     csv << fmt::format("{},{},{},{},{},{},{},{},{},{},{}", row, name(q.measure), field(q.from),
-                       field(q.to), field(q.r), field(job.e), field(job.n), job.particles,
-                       field(job.equilibrate), job.precision, cause);
+                       field(q.to), field(q.r),
+                       field(job.e.value_or(std::numeric_limits<double>::quiet_NaN())),
+                       field(job.n), job.particles, field(job.equilibrate), job.precision, cause);
   };
   for (const Statistics& each : assessment.statistics) {
     begin("mean", each.quantity, each.job, "chance");

@@ -181,13 +181,13 @@ std::vector<std::string> draw_cost(const Assessment& assessment,
     for (const Members& members : gas.quantities)
       if (plot.panels.size() < frames.size())
         plot.panels.push_back(panel_of(assessment, members, inks, plot.panels.size()));
+    const std::string e = gas.job.e ? restitution_text(*gas.job.e) : "none";
     plot.caption = fmt::format(
         "n = {}, e = {}. Symbols: standard deviation of the means of disjoint groups of "
         "realizations, with its error. Lines: slope −1/2, as of independent realizations. Dashed: "
         "shift of finite size, where it is seen.",
-        density_text(gas.job.n), restitution_text(gas.job.e));
-    const std::string stem =
-        fmt::format("cost-e{}-n{}", restitution_text(gas.job.e), density_text(gas.job.n));
+        density_text(gas.job.n), e);
+    const std::string stem = fmt::format("cost-e{}-n{}", e, density_text(gas.job.n));
     const auto svg = folder / (stem + ".svg"), png = folder / (stem + ".png");
     run_gnuplot(gnuplot_script(plot, svg, Format::svg));
     finish_svg(plot, svg);

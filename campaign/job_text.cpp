@@ -12,6 +12,10 @@ std::string describe(const schema::Job& job) {
   return fmt::format("cooling {}{}{}", e, gas, effects);
 }
 
+std::string e_text(const schema::Job& job) {
+  return job.e ? number_text(*job.e) : "-";
+}
+
 std::string number_text(double value) {
   return fmt::format("{}", value);
 }

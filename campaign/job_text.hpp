@@ -10,6 +10,9 @@ namespace haff::campaign {
 // "cooling e=0.8 n=0.4 N=32000 seed 1"; an equilibration has no e.
 std::string describe(const schema::Job& job);
 
+// Its e; a dash where its law of restitution has none.
+std::string e_text(const schema::Job& job);
+
 // The shortest text that reads back as the same number.
 std::string number_text(double value);
 

@@ -61,10 +61,11 @@ std::optional<double> mean_laguerre(const Quantity& quantity, const Samples& sam
 std::optional<double> decay_rate(const Quantity& quantity, const schema::Job& job,
                                  const Samples& samples) {
   const Samples window = within(samples, quantity.from, quantity.to);
-  if (window.size() < 2 || !reaches(samples, quantity.to) || job.e >= 1) return std::nullopt;
+  if (window.size() < 2 || !reaches(samples, quantity.to)) return std::nullopt;
+  if (!cools_by_haff(job) || *job.e >= 1) return std::nullopt;
   const schema::Sample &first = window.front(), &last = window.back();
   if (!first.temperature || !last.temperature) return std::nullopt;
-  return analysis::gamma_ratio(*first.temperature, *last.temperature, last.tau - first.tau, job.e,
+  return analysis::gamma_ratio(*first.temperature, *last.temperature, last.tau - first.tau, *job.e,
                                job.d);
 }
 
@@ -85,14 +86,14 @@ std::optional<double> ln_temperature(double tau, int d, const Samples& samples) 
 }
 
 std::optional<double> crossover(const schema::Job& job, const Pilot& pilot, std::size_t every) {
-  if (every == 1) return pilot.tau_c;
+  if (every == 1 || !cools_by_haff(job)) return pilot.tau_c;
   std::vector<double> tau, temperature;
   for (const schema::Sample& sample : every_so_manieth(pilot.samples, every)) {
     if (!sample.temperature) return std::nullopt;
     tau.push_back(sample.tau);
     temperature.push_back(*sample.temperature);
   }
-  return analysis::tau_c(tau, temperature, job.e, job.d);
+  return analysis::tau_c(tau, temperature, *job.e, job.d);
 }
 
 std::optional<double> correlation(const Quantity& quantity, const Pilot& pilot) {

@@ -195,7 +195,7 @@ std::string targets_table(const std::vector<TargetProgress>& targets) {
                    {"", Align::left}});
   for (const TargetProgress& each : targets) {
     const Estimate& estimate = each.estimate;
-    table.add({describe(quantity_of(each.target)), number_text(each.job.e), number_text(each.job.n),
+    table.add({describe(quantity_of(each.target)), e_text(each.job), number_text(each.job.n),
                count_text(each.job.particles), fmt::format("{:.1e}", each.target.se),
                estimate.count > 0 ? value_text(estimate.mean, estimate.standard_error) : no_value,
                estimate.count > 1 ? fmt::format("{:.1e}", estimate.standard_error) : no_value,

@@ -274,11 +274,12 @@ class Examiner {
       const Pointer where = target->where / quantity;
       const std::string observable = quantity[0] == 'a' ? "laguerre" : "temperature";
       if (!std::binary_search(names.begin(), names.end(), observable))
-        throw fault(file_, where, "is not measured; expected \"" + observable +
-                                      "\" among the observables of this grid");
-      const auto e = source.list<double>("e");
-      if (quantity[0] != 'a' && std::count(e.begin(), e.end(), 1.0) > 0)
-        throw fault(file_, where, "does not exist at e = 1; expected e below 1");
+        throw fault(
+            file_, where,
+            "is not measured; expected \"" + observable + "\" among the observables of this grid");
+      const auto e = source.e();
+      if (quantity[0] != 'a' && (e.empty() || std::count(e.begin(), e.end(), 1.0) > 0))
+        throw fault(file_, where, "does not exist without a constant e below 1");
       if (wish.contains("tau")) within_run(source, where / "tau", wish["tau"], tau_max);
     }
   }
@@ -289,14 +290,16 @@ class Examiner {
     const double from = window[0].get<double>(), to = window[1].get<double>();
     const double shortest = *std::min_element(tau_max.begin(), tau_max.end());
     if (to > shortest)
-      throw fault(file_, where / 1,
-                  shown(window[1]) +
-                      " is beyond the run; expected at most tau_max = " + text(shortest));
+      throw fault(
+          file_, where / 1,
+          shown(window[1]) + " is beyond the run; expected at most tau_max = " + text(shortest));
     for (const double sample_every : source.list<double>("sample_every"))
       if (to - from < sample_every)
         throw fault(file_, where,
-                    shown(window) + " holds no interval between samples; expected a window of at "
-                                    "least sample_every = " + text(sample_every));
+                    shown(window) +
+                        " holds no interval between samples; expected a window of at "
+                        "least sample_every = " +
+                        text(sample_every));
   }
 
   // Both are rounded: what differs by less than this is the same place. [relative]

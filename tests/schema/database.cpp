@@ -43,7 +43,7 @@ TEST_CASE("a new store is marked as one") {
   Store::create(folder / "a.db");
   SQLite::Database sqlite = plain(folder / "a.db");
   CHECK(sqlite.execAndGet("PRAGMA application_id").getInt() == application_id);
-  CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 4);
+  CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 5);
   CHECK(sqlite.execAndGet("PRAGMA journal_mode").getString() == "wal");
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("a store of a newer program is refused") {
   plain(path).exec("PRAGMA user_version = 7");
   const std::string message = path.string() +
                               ": was written by a newer program (store version 7, this one knows "
-                              "4); update campaign";
+                              "5); update campaign";
   CHECK(refusal([&] { Store::create(path); }) == message);
   CHECK(refusal([&] { Store::open(path); }) == message);
   CHECK(refusal([&] { Reader{path}; }) == message);
@@ -202,7 +202,7 @@ TEST_CASE("SQLite refuses writes through a reader's connection") {
   const TemporaryFolder folder;
   Store::create(folder / "a.db").add(plan({cooling()}));
   Database reader(folder / "a.db", Access::read);
-  for (const char* sql : {"DELETE FROM jobs", "CREATE TABLE t (x)", "PRAGMA user_version = 5",
+  for (const char* sql : {"DELETE FROM jobs", "CREATE TABLE t (x)", "PRAGMA user_version = 6",
                           "PRAGMA query_only = OFF; DELETE FROM jobs"}) {
     CAPTURE(sql);
     try {
@@ -213,7 +213,7 @@ TEST_CASE("SQLite refuses writes through a reader's connection") {
     }
   }
   CHECK(Reader(folder / "a.db").jobs().size() == 2);
-  CHECK(reader.sqlite().execAndGet("PRAGMA user_version").getInt() == 4);
+  CHECK(reader.sqlite().execAndGet("PRAGMA user_version").getInt() == 5);
 }
 
 TEST_CASE("readers see a store that a killed writer left with its log") {
