@@ -17,9 +17,9 @@ constexpr std::int64_t stretch = 2'000;
 
 }  // namespace
 
-Calibration calibrate(double n, std::uint32_t particles, double seconds) {
+Calibration calibrate(int d, double n, std::uint32_t particles, double seconds) {
   const std::uint32_t tried = std::min(particles, largest);
-  engine::Simulation gas({}, engine::initial_state(std::min(n, densest), tried, 0));
+  engine::Simulation gas({}, engine::initial_state(std::min(n, densest), tried, 0, d));
   const double start = cpu_seconds();
   double spent = 0;
   do {

@@ -12,6 +12,6 @@ struct Calibration {
 
 // Runs an elastic gas for some `seconds` of CPU time. Large gases are tried at 200 000 particles,
 // beyond which speed hardly changes; crowded ones at n = 0.9, where a lattice can be had at once.
-Calibration calibrate(double n, std::uint32_t particles, double seconds);
+Calibration calibrate(int d, double n, std::uint32_t particles, double seconds);
 
 }  // namespace haff::campaign

@@ -15,8 +15,8 @@ static_assert(std::endian::native == std::endian::little,
               "checkpoints are little-endian: swap bytes here for this machine");
 
 constexpr std::string_view magic = "HAFFGAS\n";
-// Version 1 had no invariants but momentum_removed, and no memory.
-constexpr std::uint32_t version = 2;
+// Version 1 had no invariants but momentum_removed, and no memory; version 2 knew only d = 3.
+constexpr std::uint32_t version = 3;
 
 // What laws of restitution remember is stored under these names, followed by their own.
 constexpr std::string_view memory_prefix = "memory.";
@@ -25,10 +25,11 @@ constexpr std::string_view memory_prefix = "memory.";
 // added to State and not here does not compile.
 template <class State, class Visit>
 void for_each_field(State& state, Visit&& visit) {
-  auto& [box, id, position, velocity, exponent, collisions, time, tally, invariants, memory] =
+  auto& [d, box, id, position, velocity, exponent, collisions, time, tally, invariants, memory] =
       state;
   auto& [dissipated, virial] = tally;
   auto& [closest2, past_events, watchdog_trips, energy_mismatch, momentum_removed] = invariants;
+  visit("d", d);
   visit("box", box);
   visit("id", id);
   visit("position", position);
@@ -45,9 +46,12 @@ void for_each_field(State& state, Visit&& visit) {
   visit("energy_mismatch", energy_mismatch);
 }
 
-bool is_in_version_1(std::string_view name) {
-  return name != "closest2" && name != "past_events" && name != "watchdog_trips" &&
-         name != "energy_mismatch";
+// The version that brought this field.
+std::uint32_t since(std::string_view name) {
+  if (name == "d") return 3;
+  const bool is_invariant = name == "closest2" || name == "past_events" ||
+                            name == "watchdog_trips" || name == "energy_mismatch";
+  return is_invariant ? 2 : 1;
 }
 
 }  // namespace
@@ -223,7 +227,7 @@ engine::State decode(std::span<const std::byte> bytes) {
 
   engine::State state;
   for_each_field(state, [&](std::string_view name, auto& field) {
-    if (found > 1 || is_in_version_1(name)) restore(table, name, field);
+    if (found >= since(name)) restore(table, name, field);
   });
   for (const Stored& stored : table)
     if (stored.name.starts_with(memory_prefix))

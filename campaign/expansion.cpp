@@ -29,27 +29,29 @@ class Plan {
 
 template <class Visit>
 void for_each_job(const schema::SubGrid& grid, Visit&& visit) {
-  for (std::size_t k = 0; k < grid.tau_max.size(); ++k)  // one for each e
-    for (const double n : grid.n)
-      for (const std::uint32_t particles : grid.particles)
-        for (const double equilibrate : grid.equilibrate)
-          for (const double sample_every : grid.sample_every)
-            for (const std::string& effects : grid.effects)
-              for (const std::uint64_t seed : grid.seeds) {
-                schema::Job job;
-                job.kind = schema::Kind::cooling;
-                job.e = grid.e.empty() ? std::nullopt : std::optional(grid.e[k]);
-                job.n = n;
-                job.particles = particles;
-                job.seed = seed;
-                job.equilibrate = equilibrate;
-                job.sample_every = sample_every;
-                job.effects = effects;
-                job.observables = grid.observables;
-                job.profiles_every = grid.profiles_every;
-                job.fields_at = grid.fields_at;
-                visit(job, grid.tau_max[k]);
-              }
+  for (const int d : grid.d)
+    for (std::size_t k = 0; k < grid.tau_max.size(); ++k)  // one for each e
+      for (const double n : grid.n)
+        for (const std::uint32_t particles : grid.particles)
+          for (const double equilibrate : grid.equilibrate)
+            for (const double sample_every : grid.sample_every)
+              for (const std::string& effects : grid.effects)
+                for (const std::uint64_t seed : grid.seeds) {
+                  schema::Job job;
+                  job.kind = schema::Kind::cooling;
+                  job.d = d;
+                  job.e = grid.e.empty() ? std::nullopt : std::optional(grid.e[k]);
+                  job.n = n;
+                  job.particles = particles;
+                  job.seed = seed;
+                  job.equilibrate = equilibrate;
+                  job.sample_every = sample_every;
+                  job.effects = effects;
+                  job.observables = grid.observables;
+                  job.profiles_every = grid.profiles_every;
+                  job.fields_at = grid.fields_at;
+                  visit(job, grid.tau_max[k]);
+                }
 }
 
 }  // namespace

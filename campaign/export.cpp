@@ -21,13 +21,20 @@ namespace {
 
 constexpr double radius = 0.5;  // [sigma]
 
+// The box and its periods; disks lie in the middle of a layer one diameter high.
+std::string cell(const engine::State& state) {
+  if (state.d == 2)
+    return fmt::format(R"(Lattice="{0} 0 0 0 {0} 0 0 0 1" Origin="0 0 -0.5" pbc="T T F")",
+                       state.box);
+  return fmt::format(R"(Lattice="{0} 0 0 0 {0} 0 0 0 {0}" Origin="0 0 0" pbc="T T T")", state.box);
+}
+
 std::string head(const engine::State& state, const schema::JobRow& row) {
   const double tau = 2 * static_cast<double>(state.collisions) / state.particles();
   return fmt::format(
-      "{0}\nLattice=\"{1} 0 0 0 {1} 0 0 0 {1}\" Origin=\"0 0 0\" pbc=\"T T T\" "
-      "Properties=id:I:1:pos:R:3:velo:R:3:radius:R:1 "
-      "job_id={2}{3} n={4} seed={5} tau={6} Time={7}\n",
-      state.particles(), state.box, row.job_id, row.job.e ? fmt::format(" e={}", *row.job.e) : "",
+      "{}\n{} Properties=id:I:1:pos:R:3:velo:R:3:radius:R:1 "
+      "job_id={}{} n={} seed={} tau={} Time={}\n",
+      state.particles(), cell(state), row.job_id, row.job.e ? fmt::format(" e={}", *row.job.e) : "",
       row.job.n, row.job.seed, tau, state.time);
 }
 

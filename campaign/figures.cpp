@@ -7,8 +7,10 @@
 #include <array>
 #include <string_view>
 #include <system_error>
+#include <variant>
 
 #include "campaign/agreement.hpp"
+#include "campaign/command_text.hpp"
 #include "campaign/figure.hpp"
 #include "campaign/gnuplot.hpp"
 #include "campaign/page.hpp"
@@ -136,6 +138,19 @@ class Drawer {
   std::string missing_;
 };
 
+// The paper's gas is one of spheres.
+void mention_disks(const schema::Reader& store, std::ostream& report) {
+  auto rows = store.query(
+      "SELECT count(*) FROM jobs WHERE kind = 'cooling' AND d = 2 AND status = 'done'");
+  const auto disks = std::get<std::int64_t>(rows.next().value()[0]);
+  if (disks == 0) return;
+  fmt::print(report,
+             "The figures are the paper's, of d = 3; {} finished job{} of disks (d = 2) {} in none "
+             "of them. Ask for these with: {}\n",
+             disks, disks == 1 ? "" : "s", disks == 1 ? "is" : "are",
+             command_text("query \"SELECT * FROM mean_series WHERE d = 2\"", store.path()));
+}
+
 }  // namespace
 
 int draw_figures(const schema::Reader& store, const FigureRequest& request, std::ostream& report) {
@@ -172,6 +187,7 @@ int draw_figures(const schema::Reader& store, const FigureRequest& request, std:
                (drawer.folder() / "index.html").string());
   }
   if (!drawer.missing().empty()) fmt::print(report, "{}\n", drawer.missing());
+  mention_disks(store, report);
   const bool complete = request.only.empty() ? drawn > 0 : drawn == asked.size();
   return complete && drawer.missing().empty() ? 0 : 1;
 }

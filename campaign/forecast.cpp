@@ -38,9 +38,10 @@ int number(schema::Kind kind) {
 Forecast::Forecast(const std::vector<schema::JobRow>& known) {
   for (const schema::JobRow& row : known) {
     const auto& job = row.job;
-    for (const Gas& gas : {Gas{job.n, job.particles, number(job.kind), job.e.value_or(any_e)},
-                           Gas{job.n, job.particles, number(job.kind), any_e},
-                           Gas{job.n, job.particles, any_kind, any_e}}) {
+    for (const Gas& gas :
+         {Gas{job.d, job.n, job.particles, number(job.kind), job.e.value_or(any_e)},
+          Gas{job.d, job.n, job.particles, number(job.kind), any_e},
+          Gas{job.d, job.n, job.particles, any_kind, any_e}}) {
       known_[gas].collisions += static_cast<double>(row.progress.collisions);
       known_[gas].cpu_seconds += row.progress.cpu_seconds;
     }
@@ -48,9 +49,9 @@ Forecast::Forecast(const std::vector<schema::JobRow>& known) {
 }
 
 double Forecast::collisions_per_second(const schema::Job& job) {
-  for (const Gas& gas : {Gas{job.n, job.particles, number(job.kind), job.e.value_or(any_e)},
-                         Gas{job.n, job.particles, number(job.kind), any_e},
-                         Gas{job.n, job.particles, any_kind, any_e}}) {
+  for (const Gas& gas : {Gas{job.d, job.n, job.particles, number(job.kind), job.e.value_or(any_e)},
+                         Gas{job.d, job.n, job.particles, number(job.kind), any_e},
+                         Gas{job.d, job.n, job.particles, any_kind, any_e}}) {
     const auto found = known_.find(gas);
     if (found == known_.end() || found->second.cpu_seconds < trustworthy) continue;
     used_store_ = true;
@@ -60,12 +61,12 @@ double Forecast::collisions_per_second(const schema::Job& job) {
 }
 
 double Forecast::trial_speed(const schema::Job& job) {
-  const std::pair gas{job.n, job.particles};
+  const Gas gas{job.d, job.n, job.particles, any_kind, any_e};
   const auto found = trial_speeds_.find(gas);
   if (found != trial_speeds_.end()) return found->second;
   const double seconds =
       trial_speeds_.size() < trials_at_length ? trial_seconds : 0.1 * trial_seconds;
-  return trial_speeds_[gas] = calibrate(job.n, job.particles, seconds).collisions_per_second;
+  return trial_speeds_[gas] = calibrate(job.d, job.n, job.particles, seconds).collisions_per_second;
 }
 
 double Forecast::cpu_seconds(const schema::Planned& plan) {
@@ -73,8 +74,8 @@ double Forecast::cpu_seconds(const schema::Planned& plan) {
 }
 
 double Forecast::memory_bytes(const schema::Job& job) {
-  const auto [place, is_new] = bytes_per_particle_.try_emplace(job.n, 0);
-  if (is_new) place->second = calibrate(job.n, small_gas, 0).bytes_per_particle;
+  const auto [place, is_new] = bytes_per_particle_.try_emplace({job.d, job.n}, 0);
+  if (is_new) place->second = calibrate(job.d, job.n, small_gas, 0).bytes_per_particle;
   return program_bytes + (place->second + 2 * state_bytes) * job.particles;
 }
 

@@ -28,15 +28,15 @@ class Forecast {
     double collisions = 0;
     double cpu_seconds = 0;
   };
-  // Density, size, then kind and e, each -1 for any.
-  using Gas = std::tuple<double, std::uint32_t, int, double>;
+  // Dimension, density, size, then kind and e, each -1 for any.
+  using Gas = std::tuple<int, double, std::uint32_t, int, double>;
 
   double collisions_per_second(const schema::Job& job);
   double trial_speed(const schema::Job& job);
 
   std::map<Gas, Work> known_;
-  std::map<std::pair<double, std::uint32_t>, double> trial_speeds_;
-  std::map<double, double> bytes_per_particle_;  // by density
+  std::map<Gas, double> trial_speeds_;
+  std::map<std::pair<int, double>, double> bytes_per_particle_;  // by dimension and density
   bool used_store_ = false;
 };
 

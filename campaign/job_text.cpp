@@ -5,7 +5,8 @@
 namespace haff::campaign {
 
 std::string describe(const schema::Job& job) {
-  const std::string gas = fmt::format("n={} N={} seed {}", job.n, job.particles, job.seed);
+  const std::string disks = job.d == 2 ? "d=2 " : "";
+  const std::string gas = disks + fmt::format("n={} N={} seed {}", job.n, job.particles, job.seed);
   const std::string effects = job.effects == "{}" ? "" : " " + job.effects;
   if (job.kind == schema::Kind::equilibration) return "equilibration " + gas;
   const std::string e = job.e ? fmt::format("e={} ", *job.e) : "";

@@ -34,11 +34,12 @@ struct Group {
   double disk_bytes = 0;
 };
 
-// Equilibrations first, then by e, n, N.
-using GroupKey = std::tuple<schema::Kind, std::optional<double>, double, std::uint32_t, double>;
+// Equilibrations first, then by d, e, n, N.
+using GroupKey =
+    std::tuple<schema::Kind, int, std::optional<double>, double, std::uint32_t, double>;
 
 GroupKey group_of(const Planned& plan) {
-  return {plan.job.kind, plan.job.e, plan.job.n, plan.job.particles, plan.tau_max};
+  return {plan.job.kind, plan.job.d, plan.job.e, plan.job.n, plan.job.particles, plan.tau_max};
 }
 
 void expect(std::vector<Planned>& jobs, Forecast& forecast) {
@@ -82,6 +83,7 @@ void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcome
   }
 
   TextTable table({{"kind", Align::left},
+                   {"d"},
                    {"e"},
                    {"n"},
                    {"N"},
@@ -92,9 +94,9 @@ void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcome
                    {"CPU time"},
                    {"disk"}});
   for (auto& [key, group] : groups) {
-    const auto& [kind, e, n, particles, tau_max] = key;
-    table.add({std::string(name(kind)), e ? number_text(*e) : no_value, number_text(n),
-               count_text(particles), number_text(tau_max), count_text(group.jobs),
+    const auto& [kind, d, e, n, particles, tau_max] = key;
+    table.add({std::string(name(kind)), count_text(d), e ? number_text(*e) : no_value,
+               number_text(n), count_text(particles), number_text(tau_max), count_text(group.jobs),
                count_text(group.outcomes[Outcome::added]),
                count_text(group.outcomes[Outcome::extended]), duration_text(group.cpu_seconds),
                bytes_text(group.disk_bytes)});

@@ -11,7 +11,7 @@
 namespace haff::campaign {
 namespace {
 
-// L = (N/n)^(1/3) comes from a C library's cube root, which may differ in its last bit. [relative]
+// L = (N/n)^(1/d) comes from a C library's cube root, which may differ in its last bit. [relative]
 constexpr double box_rounding = 1e-14;
 
 std::optional<std::string> contradiction(const engine::State& state,
@@ -19,7 +19,9 @@ std::optional<std::string> contradiction(const engine::State& state,
                                          const schema::Job& job) {
   if (state.particles() != job.particles)
     return fmt::format("it holds {} particles, the job has {}", state.particles(), job.particles);
-  const double box = std::cbrt(job.particles / job.n);
+  if (state.d != job.d) return fmt::format("it is of dimension {}, the job of {}", state.d, job.d);
+  const double volume = job.particles / job.n;
+  const double box = job.d == 2 ? std::sqrt(volume) : std::cbrt(volume);
   if (!(std::abs(state.box - box) <= box_rounding * box))
     return fmt::format("its box has side {}, the job's {}", state.box, box);
   if (state.collisions != checkpoint.collisions ||

@@ -82,13 +82,13 @@ std::string tau_c_text(const Series& series) {
   return text;
 }
 
-// What sets series apart that agree in e, n and N: those of the rest that are not all the same.
+// What sets series apart that agree in d, e, n and N: those of the rest that are not all the same.
 class Rest {
  public:
   explicit Rest(const std::vector<Series>& list) {
-    std::set<std::tuple<std::optional<double>, double, std::uint32_t>> gases;
+    std::set<std::tuple<int, std::optional<double>, double, std::uint32_t>> gases;
     for (const Series& series : list) {
-      gases.emplace(series.job.e, series.job.n, series.job.particles);
+      gases.emplace(series.job.d, series.job.e, series.job.n, series.job.particles);
       for (const auto& [key, value] : values(series.job)) values_[key].insert(value);
     }
     is_needed_ = gases.size() < list.size();
@@ -112,8 +112,7 @@ class Rest {
             {"profiles_every", job.profiles_every ? number_text(*job.profiles_every) : "none"},
             {"fields_at", fields_at(job)},
             {"precision", job.precision},
-            {"effects", job.effects},
-            {"d", std::to_string(job.d)}};
+            {"effects", job.effects}};
   }
 
   std::map<std::string, std::set<std::string>> values_;
@@ -154,8 +153,11 @@ std::vector<Series> series_of(const schema::Reader& store) {
 
 std::string series_table(const std::vector<Series>& list) {
   const Rest rest(list);
+  const bool has_disks =
+      std::any_of(list.begin(), list.end(), [](const Series& s) { return s.job.d == 2; });
   std::vector<TextTable::Column> columns{{"n"},   {"N"},       {"e"},     {"seeds"},    {"done"},
                                          {"tau"}, {"tau_max"}, {"tau_c"}, {"published"}};
+  if (has_disks) columns.insert(columns.begin(), {"d"});
   if (rest.is_needed()) columns.push_back({"", Align::left});
   TextTable table(columns);
   bool any_published = false;
@@ -171,6 +173,7 @@ std::string series_table(const std::vector<Series>& list) {
         number_text(series.tau_max),
         tau_c_text(series),
         series.published_tau_c ? number_text(*series.published_tau_c) : no_value};
+    if (has_disks) cells.insert(cells.begin(), std::to_string(series.job.d));
     if (rest.is_needed()) cells.push_back(rest.of(series.job));
     table.add(std::move(cells));
   }

@@ -123,12 +123,13 @@ void check_invariants(const Reader& store, const JobRow& row, Faults& faults) {
   const auto seen = store.invariants(row.job_id);
   if (!seen) return;  // not yet begun, or computed before they were counted
   const double closest = 1 - seen->largest_overlap;
-  const auto wrong = engine::violation({.closest2 = closest * closest,
-                                        .past_events = seen->past_events,
-                                        .watchdog_trips = seen->watchdog_trips,
-                                        .energy_mismatch = seen->energy_mismatch,
-                                        .momentum_removed = seen->momentum_removed},
-                                       engine::allowed_overlap(row.job.n, slowest_period));
+  const auto wrong =
+      engine::violation({.closest2 = closest * closest,
+                         .past_events = seen->past_events,
+                         .watchdog_trips = seen->watchdog_trips,
+                         .energy_mismatch = seen->energy_mismatch,
+                         .momentum_removed = seen->momentum_removed},
+                        engine::allowed_overlap(row.job.n, slowest_period, row.job.d));
   if (wrong) faults.push_back(*wrong);
   const auto collisions = static_cast<double>(row.progress.collisions);
   if (static_cast<double>(seen->past_events) > past_events_per_collision * collisions + 1)

@@ -7,8 +7,8 @@ namespace haff::engine {
 Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inverse_(box.inverse) {
   if (particles > particle_in(particle_bits))
     throw std::length_error("the engine holds at most 2^28 - 1 particles");
-  const double volume = box.side * box.side * box.side;
-  const double cell = std::max(smallest_cell, std::cbrt(smallest_occupancy * volume / particles));
+  const double own = smallest_occupancy * box.volume() / particles;
+  const double cell = std::max(smallest_cell, box.d == 2 ? std::sqrt(own) : std::cbrt(own));
   // Brick coordinates in pairs of cells; at least two bricks along an axis, or the two
   // neighbours of a brick would be the same one.
   bricks_ = static_cast<std::uint32_t>(
@@ -17,7 +17,7 @@ Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inver
   cell_side_ = box.side / cells_;
   stride_ = {1, bricks_, bricks_ * bricks_};
   for (unsigned axis = 0; axis < 3; ++axis) wrap_[axis] = (bricks_ - 1) * stride_[axis];
-  lines_.resize(std::size_t{bricks_} * bricks_ * bricks_);
+  lines_.resize(std::size_t{bricks_} * bricks_ * (box.d == 2 ? 1 : bricks_));
   clear();
 }
 

@@ -8,6 +8,9 @@
 //
 // A brick with more than 16 particles (a dense cluster) keeps the rest in an overflow list that
 // nobody looks at unless the sixteenth slot is taken.
+//
+// Disks have a layer of bricks one cell high: their 9 cells lie in 4 bricks, and nobody looks or
+// goes up or down.
 #pragma once
 
 #include <algorithm>
@@ -80,13 +83,17 @@ class Bricks {
   void insert(std::uint32_t particle, Cell cell);
 
   // When and through which face the particle leaves its cell.
+  template <int d = 3>
   Exit exit(const Particle& p, Cell cell, double now) const;
   // Moves the particle through that face; returns its new cell.
   Cell cross(std::uint32_t particle, Cell cell, Face face);
 
-  // The eight bricks around a cell; the four that hold the nine cells beyond one of its faces.
-  Wanted<8> around(Cell cell) const;
-  Wanted<4> beyond(Cell cell, Face face) const;
+  // The eight bricks around a cell (of disks four); the four (two) that hold the nine (three) cells
+  // beyond one of its faces.
+  template <int d = 3>
+  Wanted<1 << d> around(Cell cell) const;
+  template <int d = 3>
+  Wanted<1 << (d - 1)> beyond(Cell cell, Face face) const;
 
   std::uint32_t brick_of(Cell cell) const {
     return (((cell.packed >> 21) & 511) * bricks_ + ((cell.packed >> 11) & 511)) * bricks_ +
@@ -126,10 +133,11 @@ class Bricks {
 
   // By the half a cell is in. Of brick n, which is its own but for the axes whose bit is set, only
   // the half that touches the cell.
+  template <int d>
   static constexpr auto around_masks = [] {
-    std::array<Masks<8>, 8> masks{};
-    for (std::uint32_t half = 0; half < 8; ++half)
-      for (std::uint32_t n = 0; n < 8; ++n) {
+    std::array<Masks<1 << d>, 1 << d> masks{};
+    for (std::uint32_t half = 0; half < 1 << d; ++half)
+      for (std::uint32_t n = 0; n < 1 << d; ++n) {
         masks[half].care[n] = occupied | n << half_shift;
         masks[half].value[n] = occupied | (n & ~half) << half_shift;
       }
@@ -137,15 +145,16 @@ class Bricks {
   }();
   // By axis and half. Around a cell of the layer beyond a face, those bricks that hold the layer
   // itself; in them only its half.
+  template <int d>
   static constexpr auto beyond_masks = [] {
-    std::array<std::array<Masks<4>, 8>, 3> masks{};
-    for (std::uint32_t axis = 0; axis < 3; ++axis)
-      for (std::uint32_t half = 0; half < 8; ++half)
-        for (std::uint32_t k = 0; k < 4; ++k) {
+    std::array<std::array<Masks<1 << (d - 1)>, 1 << d>, d> masks{};
+    for (std::uint32_t axis = 0; axis < d; ++axis)
+      for (std::uint32_t half = 0; half < 1 << d; ++half)
+        for (std::uint32_t k = 0; k < 1 << (d - 1); ++k) {
           const std::uint32_t bit = 1u << axis;
           const std::uint32_t n = (k & ~(bit - 1)) << 1 | (k & (bit - 1));  // k, a zero at the axis
-          masks[axis][half].care[k] = around_masks[half].care[n] | bit << half_shift;
-          masks[axis][half].value[k] = around_masks[half].value[n] | (half & bit) << half_shift;
+          masks[axis][half].care[k] = around_masks<d>[half].care[n] | bit << half_shift;
+          masks[axis][half].value[k] = around_masks<d>[half].value[n] | (half & bit) << half_shift;
         }
     return masks;
   }();
@@ -164,9 +173,10 @@ class Bricks {
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> overflow_;
 };
 
+template <int d>
 [[gnu::always_inline]] inline Exit Bricks::exit(const Particle& p, Cell cell, double now) const {
   Exit first{std::numeric_limits<double>::infinity(), 0};
-  for (unsigned axis = 0; axis < 3; ++axis) {
+  for (unsigned axis = 0; axis < d; ++axis) {
     const double v = p.velocity[axis];
     const double x = p.position[axis] + v * (now - p.time);
     double to_centre = (cell[axis] + 0.5) * cell_side_ - x;
@@ -178,22 +188,36 @@ class Bricks {
   return first;
 }
 
-[[gnu::always_inline]] inline Bricks::Wanted<8> Bricks::around(Cell cell) const {
+template <int d>
+[[gnu::always_inline]] inline Bricks::Wanted<1 << d> Bricks::around(Cell cell) const {
+  const auto& masks = around_masks<d>[half_of(cell)];
   const std::uint32_t own = brick_of(cell);
   const std::uint32_t x = step(cell, 0);
   const std::uint32_t y = step(cell, 1);
-  const std::uint32_t z = step(cell, 2);
-  return {{own, own + x, own + y, own + x + y, own + z, own + x + z, own + y + z, own + x + y + z},
-          &around_masks[half_of(cell)]};
+  if constexpr (d == 2) {
+    return {{own, own + x, own + y, own + x + y}, &masks};
+  } else {
+    const std::uint32_t z = step(cell, 2);
+    return {
+        {own, own + x, own + y, own + x + y, own + z, own + x + z, own + y + z, own + x + y + z},
+        &masks};
+  }
 }
 
-[[gnu::always_inline]] inline Bricks::Wanted<4> Bricks::beyond(Cell cell, Face face) const {
+template <int d>
+[[gnu::always_inline]] inline Bricks::Wanted<1 << (d - 1)> Bricks::beyond(Cell cell,
+                                                                          Face face) const {
   const unsigned axis = face / 2;
   const Cell layer = across(cell, face);
+  const auto& masks = beyond_masks<d>[axis][half_of(layer)];
   const std::uint32_t own = brick_of(layer);
   const std::uint32_t a = step(layer, axis == 0 ? 1 : 0);
-  const std::uint32_t b = step(layer, axis == 2 ? 1 : 2);
-  return {{own, own + a, own + b, own + a + b}, &beyond_masks[axis][half_of(layer)]};
+  if constexpr (d == 2) {
+    return {{own, own + a}, &masks};
+  } else {
+    const std::uint32_t b = step(layer, axis == 2 ? 1 : 2);
+    return {{own, own + a, own + b, own + a + b}, &masks};
+  }
 }
 
 }  // namespace haff::engine

@@ -24,4 +24,7 @@ class Course {
 // Throws std::invalid_argument if there is no such law.
 std::unique_ptr<Course> plain_course(const Model& model, const Gas& gas, const State& start);
 
+// Disks, by SIMD. Throws likewise.
+std::unique_ptr<Course> disks_course(const Model& model, const State& start);
+
 }  // namespace haff::engine

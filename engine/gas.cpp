@@ -9,9 +9,8 @@ namespace {
 // and the crossings of a cell about a diameter wide. Only speed depends on it.
 double events_per_time(const Gas& gas) {
   const auto count = static_cast<double>(gas.particles.size());
-  const double volume = gas.box.side * gas.box.side * gas.box.side;
   const double speed = std::sqrt(2 * kinetic_energy(gas.particles));
-  return std::max(count * speed * (1 + 4 * count / volume), 1e-300);
+  return std::max(count * speed * (1 + 4 * count / gas.box.volume()), 1e-300);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace haff::engine {
 
 struct Gas {
   explicit Gas(const State& state)
-      : box(state.box),
+      : box(state),
         particles(state.particles()),
         bricks(box, state.particles()),
         calendar(state.particles()),

@@ -1,6 +1,7 @@
 #include "engine/growth.hpp"
 
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "engine/event_loop-inl.hpp"
@@ -43,21 +44,21 @@ struct GrowingSpheres {
   }
 };
 
-using Loop = HWY_NAMESPACE::EventLoop<PlainSearch<GrowingSpheres>, GrowingSpheres>;
-using NearImageLoop =
-    HWY_NAMESPACE::EventLoop<PlainSearch<GrowingSpheres, NearImages>, GrowingSpheres>;
-using ImageLoop = HWY_NAMESPACE::EventLoop<PlainSearch<GrowingSpheres, Everybody>, GrowingSpheres>;
+template <class Candidates, int d>
+using Loop = HWY_NAMESPACE::EventLoop<PlainSearch<GrowingSpheres, Candidates, d>, GrowingSpheres>;
 
 State random_points(std::uint32_t count, const Box& box, std::uint64_t seed) {
   Random random(seed, Stream::growth);
   State state;
+  state.d = box.d;
   state.box = box.side;
   for (std::uint32_t k = 0; k < count; ++k) {
     state.id.push_back(k);
     state.position.emplace_back();
     state.velocity.emplace_back();
-    for (double& x : state.position.back()) x = random.uniform() * box.side;
-    for (double& v : state.velocity.back()) v = random.normal();
+    const auto axes = static_cast<std::size_t>(box.d);
+    for (double& x : std::span(state.position.back()).first(axes)) x = random.uniform() * box.side;
+    for (double& v : std::span(state.velocity.back()).first(axes)) v = random.normal();
   }
   return state;
 }
@@ -70,11 +71,21 @@ void cool(Gas& gas) {
 }
 
 // Until the next synchronization, or until the spheres are full-grown.
-template <class EventLoop>
-void grow(Gas& gas, const GrowingSpheres& spheres, std::int64_t collisions) {
-  EventLoop loop(gas, spheres);
+template <class Candidates, int d>
+void grow_among(Gas& gas, const GrowingSpheres& spheres, std::int64_t collisions) {
+  Loop<Candidates, d> loop(gas, spheres);
   loop.predict_all();
   loop.run(collisions, (1 - spheres.diameter) / growth_rate);
+}
+
+template <int d>
+void grow(Gas& gas, const GrowingSpheres& spheres, std::int64_t collisions) {
+  if (!Bricks::fits(gas.box))
+    grow_among<Everybody, d>(gas, spheres, collisions);
+  else if (!gas.bricks.tell_images_apart())
+    grow_among<NearImages, d>(gas, spheres, collisions);
+  else
+    grow_among<Near, d>(gas, spheres, collisions);
 }
 
 }  // namespace
@@ -85,12 +96,10 @@ std::vector<Vector> grown_positions(std::uint32_t count, const Box& box, std::ui
     cool(gas);
     prepare(gas);
     const std::int64_t stop = next_synchronization(gas.clock.collisions, count);
-    if (!Bricks::fits(box))
-      grow<ImageLoop>(gas, {diameter}, stop);
-    else if (!gas.bricks.tell_images_apart())
-      grow<NearImageLoop>(gas, {diameter}, stop);
+    if (box.d == 2)
+      grow<2>(gas, {diameter}, stop);
     else
-      grow<Loop>(gas, {diameter}, stop);
+      grow<3>(gas, {diameter}, stop);
     const double growth = growth_rate * gas.clock.now;
     const bool full_grown = gas.clock.collisions < stop;  // stopped by time
     if (!full_grown && growth < least_growth)

@@ -11,7 +11,8 @@
 
 namespace haff::engine {
 
-// Positions of `count` spheres of diameter 1 in the box. Throws Breakdown if they jam before.
+// Positions of `count` spheres (of disks if the box is a square) of diameter 1 in the box. Throws
+// Breakdown if they jam before.
 std::vector<Vector> grown_positions(std::uint32_t count, const Box& box, std::uint64_t seed);
 
 }  // namespace haff::engine

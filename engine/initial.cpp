@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "engine/growth.hpp"
@@ -45,6 +46,41 @@ bool lattice_fits(std::uint32_t count, const Box& box) {
   return box.side / static_cast<double>(cells_along(count)) / std::sqrt(2.0) >= 1;
 }
 
+// A triangular lattice, stretched to fit a square: cells of two sites, the second in the middle.
+struct Triangular {
+  std::uint64_t columns = 0;
+  std::uint64_t rows = 0;
+  double width = 0;  // of a cell
+  double height = 0;
+  double distance = 0;  // of nearest neighbours
+};
+
+// With enough sites for so many disks, nearest neighbours as far apart as can be.
+Triangular triangular(std::uint32_t count, const Box& box) {
+  Triangular best;
+  for (std::uint64_t columns = 1; (columns - 1) * (columns - 1) < count; ++columns) {
+    const std::uint64_t rows = (count + 2 * columns - 1) / (2 * columns);
+    const double width = box.side / static_cast<double>(columns);
+    const double height = box.side / static_cast<double>(rows);
+    const double diagonal = std::sqrt(width * width + height * height);
+    const double distance = std::min({width, height, 0.5 * diagonal});
+    if (distance > best.distance) best = {columns, rows, width, height, distance};
+  }
+  return best;
+}
+
+std::vector<Vector> triangular_positions(std::uint32_t count, const Triangular& lattice) {
+  std::vector<Vector> positions(count);
+  for (std::uint64_t k = 0; k < count; ++k) {  // vacant sites are spread evenly
+    const std::uint64_t site = k * 2 * lattice.columns * lattice.rows / count;
+    const std::uint64_t cell = site / 2;
+    const double offset = site % 2 == 0 ? 0.25 : 0.75;
+    positions[k] = {(static_cast<double>(cell % lattice.columns) + offset) * lattice.width,
+                    (static_cast<double>(cell / lattice.columns) + offset) * lattice.height, 0};
+  }
+  return positions;
+}
+
 std::vector<Vector> lattice_positions(std::uint32_t count, const Box& box) {
   const std::uint64_t cells = cells_along(count);
   const std::uint64_t sites = 4 * cells * cells * cells;
@@ -60,32 +96,42 @@ void set_energy(std::vector<Particle>& particles, double energy) {
     for (double& v : p.velocity) v *= factor;
 }
 
-void draw_velocities(std::vector<Particle>& particles, std::uint64_t seed) {
+void draw_velocities(std::vector<Particle>& particles, std::uint64_t seed, int d) {
   Random random(seed, Stream::velocities);
   for (Particle& p : particles)
-    for (double& v : p.velocity) v = random.normal();
+    for (double& v : std::span(p.velocity).first(static_cast<std::size_t>(d))) v = random.normal();
   remove_momentum(particles);
   set_energy(particles, 1);
 }
 
+// Where the particles of a new gas are.
+std::vector<Vector> initial_positions(std::uint32_t count, const Box& box, std::uint64_t seed) {
+  if (box.d == 2) {
+    const Triangular lattice = triangular(count, box);
+    if (lattice.distance >= 1) return triangular_positions(count, lattice);
+  } else if (lattice_fits(count, box)) {
+    return lattice_positions(count, box);
+  }
+  return grown_positions(count, box, seed);
+}
+
 }  // namespace
 
-State initial_state(double n, std::uint32_t count, std::uint64_t seed) {
-  const Box box(cube_root(count / n));
-  const std::vector<Vector> positions =
-      lattice_fits(count, box) ? lattice_positions(count, box) : grown_positions(count, box, seed);
+State initial_state(double n, std::uint32_t count, std::uint64_t seed, int d) {
+  const Box box(d == 2 ? std::sqrt(count / n) : cube_root(count / n), d);
+  const std::vector<Vector> positions = initial_positions(count, box, seed);
   std::vector<Particle> particles(count);
   for (std::uint32_t k = 0; k < count; ++k) {
     particles[k].position = positions[k];
     particles[k].id = k;
   }
-  draw_velocities(particles, seed);
+  draw_velocities(particles, seed, d);
   sort_in_space(particles, box);
   return to_state(particles, Clock{}, box);
 }
 
 State restarted(const State& state) {
-  const Box box(state.box);
+  const Box box(state);
   std::vector<Particle> particles(state.id.size());
   copy_particles(state, particles);
   set_energy(particles, 1);

@@ -8,9 +8,10 @@
 namespace haff::engine {
 
 // N spheres at number density n in a periodic cube, on a face-centred cubic lattice where one
-// fits and grown into place (Lubachevsky and Stillinger) where none does; kinetic energy per
-// particle 1. Depends on (n, particles, seed) only. Throws Breakdown if growth jams below n.
-State initial_state(double n, std::uint32_t particles, std::uint64_t seed);
+// fits and grown into place (Lubachevsky and Stillinger) where none does; disks (d = 2) in a
+// square, on a triangular lattice or grown. Kinetic energy per particle 1. Depends on (n,
+// particles, seed, d) only. Throws Breakdown if growth jams below n.
+State initial_state(double n, std::uint32_t particles, std::uint64_t seed, int d = 3);
 
 // The same configuration as the start of a new run: velocities scaled so that the kinetic energy
 // per particle is exactly 1 (to rounding), clocks and tallies at zero.

@@ -4,16 +4,25 @@
 #include "engine/course-inl.hpp"
 
 namespace haff::engine {
+namespace {
 
-std::unique_ptr<Course> plain_course(const Model& model, const Gas& gas, const State& start) {
+template <int d>
+std::unique_ptr<Course> plain_course_in(const Model& model, const Gas& gas, const State& start) {
   using HWY_NAMESPACE::CourseOf;
   return with_law(model, [&]<class Law>(const Law& law) -> std::unique_ptr<Course> {
     if (!Bricks::fits(gas.box))
-      return std::make_unique<CourseOf<PlainSearch<HardSpheres, Everybody>, Law>>(law, start);
+      return std::make_unique<CourseOf<PlainSearch<HardSpheres, Everybody, d>, Law>>(law, start);
     if (!gas.bricks.tell_images_apart())
-      return std::make_unique<CourseOf<PlainSearch<HardSpheres, NearImages>, Law>>(law, start);
-    return std::make_unique<CourseOf<PlainSearch<HardSpheres>, Law>>(law, start);
+      return std::make_unique<CourseOf<PlainSearch<HardSpheres, NearImages, d>, Law>>(law, start);
+    return std::make_unique<CourseOf<PlainSearch<HardSpheres, Near, d>, Law>>(law, start);
   });
+}
+
+}  // namespace
+
+std::unique_ptr<Course> plain_course(const Model& model, const Gas& gas, const State& start) {
+  return gas.box.d == 2 ? plain_course_in<2>(model, gas, start)
+                        : plain_course_in<3>(model, gas, start);
 }
 
 }  // namespace haff::engine

@@ -22,24 +22,27 @@ HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-#if HWY_TARGET == HWY_SCALAR
-using SimdSearch = PlainSearch<HardSpheres>;  // processors without vectors worth the name
+// `dimension` is what is d elsewhere: Highway has that name for the type of a vector's elements.
+#if HWY_TARGET == HWY_SCALAR  // processors without vectors worth the name
+template <int dimension = 3>
+using SimdSearch = PlainSearch<HardSpheres, Near, dimension>;
 #else
 
+template <int dimension = 3>
 class SimdSearch {
  public:
   SimdSearch(const Gas& gas, const HardSpheres&) : gas_(gas) {}
 
   HWY_INLINE Contact around(std::uint32_t p, Cell cell, double now) {
-    const std::size_t count = gather(p, gas_.bricks.around(cell), list_);
+    const std::size_t count = gather(p, gas_.bricks.around<dimension>(cell), list_);
     return first_of<false>(p, count, list_.data(), now);
   }
   HWY_INLINE Contact around_fresh(std::uint32_t p, Cell cell) {
-    const std::size_t count = gather(p, gas_.bricks.around(cell), list_);
+    const std::size_t count = gather(p, gas_.bricks.around<dimension>(cell), list_);
     return first_of<true>(p, count, list_.data(), gas_.particles[p].time);
   }
   HWY_INLINE Contact beyond(std::uint32_t p, Cell cell, Face face, double now) {
-    const std::size_t count = gather(p, gas_.bricks.beyond(cell, face), list_);
+    const std::size_t count = gather(p, gas_.bricks.beyond<dimension>(cell, face), list_);
     return first_of<false>(p, count, list_.data(), now);
   }
 
@@ -47,8 +50,8 @@ class SimdSearch {
   // overlap the two.
   HWY_INLINE std::pair<Contact, Contact> around_both(std::uint32_t p, Cell p_cell, std::uint32_t q,
                                                      Cell q_cell) {
-    const std::size_t p_count = gather(p, gas_.bricks.around(p_cell), list_);
-    const std::size_t q_count = gather(q, gas_.bricks.around(q_cell), other_list_);
+    const std::size_t p_count = gather(p, gas_.bricks.around<dimension>(p_cell), list_);
+    const std::size_t q_count = gather(q, gas_.bricks.around<dimension>(q_cell), other_list_);
     const double now = gas_.particles[p].time;
     const Contact first = first_of<true>(p, p_count, list_.data(), now);
     const Contact second = first_of<true>(q, q_count, other_list_.data(), now);
@@ -56,28 +59,28 @@ class SimdSearch {
   }
 
   HWY_INLINE void prefetch_bricks_around(Cell cell) const {
-    prefetch_bricks(gas_.bricks.around(cell));
+    prefetch_bricks(gas_.bricks.around<dimension>(cell));
   }
   HWY_INLINE void prefetch_bricks_beyond(Cell cell, Face face) const {
-    prefetch_bricks(gas_.bricks.beyond(cell, face));
+    prefetch_bricks(gas_.bricks.beyond<dimension>(cell, face));
     __builtin_prefetch(&gas_.bricks.line(gas_.bricks.brick_of(cell)), 1, 2);
   }
   HWY_INLINE void prefetch_particles_around(Cell cell, Cell partner) {
-    prefetch_particles(gas_.bricks.around(cell));
-    if (partner != cell) prefetch_bricks(gas_.bricks.around(partner));
+    prefetch_particles(gas_.bricks.around<dimension>(cell));
+    if (partner != cell) prefetch_bricks(gas_.bricks.around<dimension>(partner));
   }
   HWY_INLINE void prefetch_particles_beyond(Cell cell, Face face) {
-    prefetch_particles(gas_.bricks.beyond(cell, face));
+    prefetch_particles(gas_.bricks.beyond<dimension>(cell, face));
   }
 
-  // Bricks::exit() for the three axes at once.
+  // Bricks::exit() for all axes at once.
   HWY_INLINE Exit exit(std::uint32_t p, Cell cell, double now) const {
 #if HWY_CAP_GE256
     const Particle& own = gas_.particles[p];
     const Reals d;
     const hn::Rebind<std::int32_t, Reals> d32;
     alignas(16) static constexpr std::int32_t shifts[4] = {0, 10, 20, 30};
-    const auto axes = hn::FirstN(d, 3);
+    const auto axes = hn::FirstN(d, dimension);
     const V v = hn::IfThenElseZero(axes, hn::Load(d, own.velocity.data()));
     const V x = hn::Add(hn::Load(d, own.position.data()), hn::Mul(v, hn::Set(d, now - own.time)));
     const auto packed = hn::Set(d32, static_cast<std::int32_t>(cell.packed));
@@ -100,7 +103,7 @@ class SimdSearch {
     const auto axis = static_cast<unsigned>(std::countr_zero(bits));
     return {now + hn::GetLane(first), 2 * axis + (own.velocity[axis] > 0 ? 1u : 0u)};
 #else
-    return gas_.bricks.exit(gas_.particles[p], cell, now);
+    return gas_.bricks.exit<dimension>(gas_.particles[p], cell, now);
 #endif
   }
 
@@ -204,7 +207,7 @@ class SimdSearch {
     pair(0, r.x, r.y);
     pair(2, r.z, r.t);
     pair(4, r.vx, r.vy);
-    pair(6, r.vz, names);
+    if constexpr (dimension == 3) pair(6, r.vz, names);
     return r;
   }
 
@@ -257,7 +260,7 @@ class SimdSearch {
       V rx, ry, rz, vx, vy, vz;
       relative(0, other.x, other.vx, rx, vx);
       relative(1, other.y, other.vy, ry, vy);
-      relative(2, other.z, other.vz, rz, vz);
+      if constexpr (dimension == 3) relative(2, other.z, other.vz, rz, vz);
       const V approach = dot(rx, ry, rz, vx, vy, vz);
       const V gap = hn::Sub(dot(rx, ry, rz, rx, ry, rz), hn::Set(d, 1.0));
       const V discriminant =
@@ -277,7 +280,9 @@ class SimdSearch {
   }
 
   static HWY_INLINE V dot(V ax, V ay, V az, V bx, V by, V bz) {
-    return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
+    const V planar = hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by));
+    if constexpr (dimension == 2) return planar;
+    return hn::Add(planar, hn::Mul(az, bz));
   }
 
   static constexpr std::size_t block = 64;

@@ -36,7 +36,7 @@ inline void keep_first(Contact& best, const Contact& other, const HugeVector<Par
 
 // Candidates: who is in the wanted cells, as the nearest image.
 struct Near {
-  template <std::size_t count, class Visit>
+  template <int d, std::size_t count, class Visit>
   static void visit(const Gas& gas, const Bricks::Wanted<count>& wanted, const Visit& visit) {
     for (std::size_t n = 0; n < count; ++n) {
       const auto take = [&](std::uint32_t slot) {
@@ -49,40 +49,40 @@ struct Near {
   }
 };
 
-// The 27 boxes around the nearest image.
-template <class Visit>
+// The 27 boxes around the nearest image; of disks 9.
+template <int d, class Visit>
 void visit_images(std::uint32_t q, const Visit& visit) {
-  for (int image = 0; image < 27; ++image)
-    visit(q, Vector{image % 3 - 1.0, image / 3 % 3 - 1.0, image / 9 - 1.0});
+  for (int image = 0; image < (d == 2 ? 9 : 27); ++image)
+    visit(q, Vector{image % 3 - 1.0, image / 3 % 3 - 1.0, d == 2 ? 0 : image / 9 - 1.0});
 }
 
 // Candidates where two neighbouring cells are half the box: who is in the wanted cells, as each of
 // its images. Two particles on opposite faces of such cells are half a box apart, and then which
 // image is the nearest is a matter of rounding.
 struct NearImages {
-  template <std::size_t count, class Visit>
+  template <int d, std::size_t count, class Visit>
   static void visit(const Gas& gas, const Bricks::Wanted<count>& wanted, const Visit& visit) {
-    Near::visit(gas, wanted, [&](std::uint32_t q, const Vector&) { visit_images(q, visit); });
+    Near::visit<d>(gas, wanted, [&](std::uint32_t q, const Vector&) { visit_images<d>(q, visit); });
   }
 };
 
 // Candidates in a box so small that a particle can meet two images of another: everybody, as each
 // of its images.
 struct Everybody {
-  template <std::size_t count, class Visit>
+  template <int d, std::size_t count, class Visit>
   static void visit(const Gas& gas, const Bricks::Wanted<count>&, const Visit& visit) {
-    for (std::uint32_t q = 0; q < gas.particles.size(); ++q) visit_images(q, visit);
+    for (std::uint32_t q = 0; q < gas.particles.size(); ++q) visit_images<d>(q, visit);
   }
 };
 
 // One candidate after the other. The same bits as the SIMD search, which is tested against it.
-template <class Physics, class Candidates = Near>
+template <class Physics, class Candidates = Near, int d = 3>
 class PlainSearch {
  public:
   PlainSearch(const Gas& gas, const Physics& physics) : gas_(gas), physics_(physics) {}
 
   Contact around(std::uint32_t p, Cell cell, double now) const {
-    return first_in(p, gas_.bricks.around(cell), now);
+    return first_in(p, gas_.bricks.around<d>(cell), now);
   }
   Contact around_fresh(std::uint32_t p, Cell cell) const {
     return around(p, cell, gas_.particles[p].time);
@@ -92,10 +92,10 @@ class PlainSearch {
     return {around_fresh(p, p_cell), around_fresh(q, q_cell)};
   }
   Contact beyond(std::uint32_t p, Cell cell, Face face, double now) const {
-    return first_in(p, gas_.bricks.beyond(cell, face), now);
+    return first_in(p, gas_.bricks.beyond<d>(cell, face), now);
   }
   Exit exit(std::uint32_t p, Cell cell, double now) const {
-    return gas_.bricks.exit(gas_.particles[p], cell, now);
+    return gas_.bricks.exit<d>(gas_.particles[p], cell, now);
   }
   void prefetch_bricks_around(Cell) const {}
   void prefetch_bricks_beyond(Cell, Face) const {}
@@ -106,7 +106,7 @@ class PlainSearch {
   template <std::size_t count>
   Contact first_in(std::uint32_t p, const Bricks::Wanted<count>& wanted, double now) const {
     Contact best;
-    Candidates::visit(gas_, wanted, [&](std::uint32_t q, const Vector& image) {
+    Candidates::template visit<d>(gas_, wanted, [&](std::uint32_t q, const Vector& image) {
       if (q == p) return;
       const Encounter pair(gas_.particles[p], gas_.particles[q], now, gas_.box, image);
       keep_first(best, {physics_.contact_time(pair), q}, gas_.particles);

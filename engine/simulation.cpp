@@ -22,8 +22,8 @@ constexpr std::size_t worth_prefetching = 16000;
 std::unique_ptr<Course> simd_course(const Model& model, const Gas& gas, const State& start) {
   return with_law(model, [&]<class Law>(const Law& law) -> std::unique_ptr<Course> {
     if (gas.particles.size() < worth_prefetching)
-      return std::make_unique<CourseOf<SimdSearch, Law>>(law, start);
-    return std::make_unique<CourseOf<SimdSearch, Law, true>>(law, start);
+      return std::make_unique<CourseOf<SimdSearch<3>, Law>>(law, start);
+    return std::make_unique<CourseOf<SimdSearch<3>, Law, true>>(law, start);
   });
 }
 
@@ -81,14 +81,15 @@ class Simulation::Implementation {
                                         Prediction prediction) {
     const bool simd =
         prediction == Prediction::simd && Bricks::fits(gas.box) && gas.bricks.tell_images_apart();
-    return simd ? HWY_DYNAMIC_DISPATCH(simd_course)(model, gas, state)
-                : plain_course(model, gas, state);
+    if (!simd) return plain_course(model, gas, state);
+    if (gas.box.d == 2) return disks_course(model, state);
+    return HWY_DYNAMIC_DISPATCH(simd_course)(model, gas, state);
   }
 
   void synchronize_now() {
     if (is_long) must_have_progressed(gas, expected);
-    const double volume = gas.box.side * gas.box.side * gas.box.side;
-    audit(gas.particles, gas.clock, allowed_overlap(count() / volume, gas.clock.now / expected));
+    audit(gas.particles, gas.clock,
+          allowed_overlap(count() / gas.box.volume(), gas.clock.now / expected, gas.box.d));
     course->before_synchronization(gas);
     synchronize(gas.particles, gas.clock, gas.box);
     act(actions, gas.particles, gas.clock);

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/particle.hpp"
+
 namespace haff::engine {
 namespace {
 
@@ -36,10 +38,12 @@ class Cells {
  public:
   explicit Cells(const State& state) : state_(state) {
     // More cells than particles gain nothing, however dilute the gas.
-    const double most = std::cbrt(static_cast<double>(state.particles())) + 1;
+    const double particles = state.particles();
+    const double most = (state.d == 2 ? std::sqrt(particles) : std::cbrt(particles)) + 1;
     side_ = static_cast<int>(std::max(1.0, std::floor(std::min(state.box, most))));
+    layers_ = state.d == 2 ? 1 : side_;
     const auto side = static_cast<std::size_t>(side_);
-    begin_.resize(side * side * side + 1);
+    begin_.resize(side * side * static_cast<std::size_t>(layers_) + 1);
     for (const Vector& r : state.position) ++begin_[cell_of(r) + 1];
     for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
     members_.resize(state.position.size());
@@ -52,11 +56,12 @@ class Cells {
   template <class Visit>
   void for_each_pair(Visit&& visit) const {
     const int reach = side_ < 3 ? side_ - 1 : 1;
+    const int reach_z = layers_ == 1 ? 0 : reach;
     for (std::size_t i = 0; i < members_.size(); ++i) {
       const auto home = coordinates(state_.position[i]);
       for (int x = -reach; x <= reach; ++x)
         for (int y = -reach; y <= reach; ++y)
-          for (int z = -reach; z <= reach; ++z) {
+          for (int z = -reach_z; z <= reach_z; ++z) {
             const std::size_t c = index({home[0] + x, home[1] + y, home[2] + z});
             for (std::size_t k = begin_[c]; k < begin_[c + 1]; ++k)
               if (i < members_[k]) visit(i, members_[k]);
@@ -76,13 +81,14 @@ class Cells {
   std::size_t index(Coordinates cell) const {
     for (int& c : cell) c = (c + side_) % side_;
     const auto side = static_cast<std::size_t>(side_);
-    return (static_cast<std::size_t>(cell[0]) * side + static_cast<std::size_t>(cell[1])) * side +
-           static_cast<std::size_t>(cell[2]);
+    return (static_cast<std::size_t>(cell[2]) * side + static_cast<std::size_t>(cell[0])) * side +
+           static_cast<std::size_t>(cell[1]);
   }
   std::size_t cell_of(const Vector& r) const { return index(coordinates(r)); }
 
   const State& state_;
   int side_ = 1;
+  int layers_ = 1;  // along z
   std::vector<std::size_t> begin_;
   std::vector<std::size_t> members_;
 };
@@ -92,6 +98,7 @@ bool is_finite(const Vector& v) {
 }
 
 std::optional<std::string> unsound_numbers(const State& state) {
+  if (state.d != 2 && state.d != 3) return text("dimension %d (2 or 3 expected)", state.d);
   const std::size_t particles = state.id.size();
   if (particles < 2 || state.position.size() != particles || state.velocity.size() != particles)
     return text("%zu ids, %zu positions and %zu velocities do not make a gas", particles,
@@ -117,13 +124,15 @@ std::optional<std::string> unsound_numbers(const State& state) {
     for (const double x : state.position[i])
       if (x < 0 || x >= state.box)
         return text("particle %u: position %.17g outside the box [0, %.17g)", id, x, state.box);
+    if (state.d == 2 && (state.position[i][2] != 0 || state.velocity[i][2] != 0))
+      return text("disk %u has left its plane: z = %g, v_z = %g", id, state.position[i][2],
+                  state.velocity[i][2]);
   }
   return std::nullopt;
 }
 
 std::optional<std::string> deepest_overlap(const State& state) {
-  const double allowed =
-      allowed_overlap(static_cast<double>(state.particles()) / (state.box * state.box * state.box));
+  const double allowed = allowed_overlap(state.particles() / Box(state).volume(), 1, state.d);
   const double closest2 = (1 - allowed) * (1 - allowed);
   double least2 = closest2;
   std::pair<std::size_t, std::size_t> pair;
@@ -146,8 +155,8 @@ std::optional<std::string> unsoundness(const State& state) {
   return deepest_overlap(state);
 }
 
-double allowed_overlap(double n, double periods) {
-  const double mean_free_path = 1 / (std::numbers::sqrt2 * std::numbers::pi * n);
+double allowed_overlap(double n, double periods, int d) {
+  const double mean_free_path = 1 / (std::numbers::sqrt2 * (d == 2 ? 2 : std::numbers::pi) * n);
   const double flight = 30 * mean_free_path * std::max(periods, 1.0);
   return smallest_allowed_overlap + std::numeric_limits<double>::epsilon() * flight * flight;
 }

@@ -18,7 +18,7 @@ inline constexpr double smallest_allowed_overlap = 1e-10;
 // discriminant of a pair r apart is rounded by some 1e-16 r^2 v^2: in very dilute gases, where a
 // flight can be some ten mean free paths, that is what counts (3e-8 at n = 1e-4, as measured).
 // `periods`: how many times longer than expected a period was. [sigma]
-double allowed_overlap(double n, double periods = 1);
+double allowed_overlap(double n, double periods = 1, int d = 3);
 
 // Below this side of the box a sphere would meet another one and its image at once. [sigma]
 inline constexpr double smallest_box = 2;

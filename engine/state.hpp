@@ -38,7 +38,8 @@ struct Invariants {
 };
 
 struct State {
-  double box = 0;  // side L of the periodic cube
+  int d = 3;       // dimension; of disks (2) all z are 0
+  double box = 0;  // side L of the periodic cube or square
 
   // One entry a particle, in spatial order (synchronize.hpp). `id` names a particle for ever; its
   // place in these arrays changes.

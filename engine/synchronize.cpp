@@ -166,6 +166,7 @@ double kinetic_energy(std::span<const Particle> particles) {
 
 State to_state(std::span<const Particle> particles, const Clock& clock, const Box& box) {
   State state;
+  state.d = box.d;
   state.box = box.side;
   for (const Particle& p : particles) {
     state.id.push_back(p.id);

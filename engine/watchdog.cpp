@@ -67,9 +67,10 @@ double longest_period(std::uint32_t particles) {
 
 double expected_period(const Gas& gas) {
   const double count = static_cast<double>(gas.particles.size());
-  const double density = count / (gas.box.side * gas.box.side * gas.box.side);
-  const double temperature = 2.0 / 3 * gas.clock.energy;
-  const double rate = 4 * density * std::sqrt(std::numbers::pi * temperature);
+  const double density = count / gas.box.volume();
+  const double temperature = 2.0 / gas.box.d * gas.clock.energy;
+  const double rate =
+      (gas.box.d == 2 ? 2 : 4) * density * std::sqrt(std::numbers::pi * temperature);
   return synchronization_period / rate;
 }
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <optional>
 
 #include "schema/document.hpp"
@@ -18,6 +19,12 @@
 namespace haff::schema {
 
 namespace {
+
+// Disks that touch six others each. [sigma^-2]
+constexpr double densest_disks = 2 / std::numbers::sqrt3;
+
+// What disks may be asked for beyond a constant e.
+constexpr std::array<std::string_view, 1> effects_of_disks = {"restitution"};
 
 // Below this side of the box a sphere would meet another one and its image at once. [sigma]
 constexpr double smallest_box = 2;
@@ -172,10 +179,13 @@ class Examiner {
   }
 
   void fits(const Source& source) const {
+    const auto dimensions = source.list<int>("d");
+    if (std::find(dimensions.begin(), dimensions.end(), 2) != dimensions.end()) suits_disks(source);
     for (const Placed& particles : items(source["N"])) {
       const double N = particles.value.get<double>();
       fits_in_memory(particles, N);
-      for (const double n : source.list<double>("n")) fits_in_box(particles, N, n);
+      for (const int d : dimensions)
+        for (const double n : source.list<double>("n")) fits_in_box(particles, N, n, d);
       for (const double sample_every : source.list<double>("sample_every"))
         collides_between_samples(source, N, sample_every);
     }
@@ -318,13 +328,28 @@ class Examiner {
                       " of this machine, and N below 2^28");
   }
 
-  void fits_in_box(const Placed& particles, double N, double n) const {
-    if (N / n >= std::pow(smallest_box, 3)) return;
+  void suits_disks(const Source& source) const {
+    for (const Placed& density : items(source["n"]))
+      if (density.value.get<double>() >= densest_disks)
+        throw fault(file_, density.where,
+                    shown(density.value) + " is too dense for disks (d = 2); expected n below " +
+                        "2/sqrt(3) = 1.1547 (close packing)");
+    const Placed effects = source["effects"];
+    for (const auto& [name, effect] : effects.value.items())
+      if (std::find(effects_of_disks.begin(), effects_of_disks.end(), name) ==
+          effects_of_disks.end())
+        throw fault(file_, effects.where / name,
+                    "is an effect for spheres alone; expected d = 3 with it");
+  }
+
+  void fits_in_box(const Placed& particles, double N, double n, int d) const {
+    if (N / n >= std::pow(smallest_box, d)) return;
+    const double side = d == 2 ? std::sqrt(N / n) : std::cbrt(N / n);
     throw fault(file_, particles.where,
-                shown(particles.value) + " particles at n = " + text(n) +
-                    " make a box of side L = " + rounded(std::cbrt(N / n)) +
+                shown(particles.value) + (d == 2 ? " disks" : " particles") + " at n = " + text(n) +
+                    " make a box of side L = " + rounded(side) +
                     " sigma; expected L >= " + text(smallest_box) +
-                    " sigma, N >= " + text(std::ceil(std::pow(smallest_box, 3) * n)));
+                    " sigma, N >= " + text(std::ceil(std::pow(smallest_box, d) * n)));
   }
 
   // A constant e, or a law that gives every collision its own.
@@ -453,7 +478,8 @@ std::vector<std::string> effects(const Placed& placed) {
 }
 
 SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {
-  SubGrid grid{.e = source.e(),
+  SubGrid grid{.d = source.list<int>("d"),
+               .e = source.e(),
                .n = source.list<double>("n"),
                .particles = source.list<std::uint32_t>("N"),
                .seeds = seeds(source["seeds"]),

@@ -22,8 +22,9 @@ struct GridError : std::runtime_error {
 // One entry of "grids" with all defaults filled in: the product of these lists. No list but e is
 // empty or holds a value twice.
 struct SubGrid {
+  std::vector<int> d;
   std::vector<double> e;                 // empty where the law of restitution has none
-  std::vector<double> n;                 // [sigma^-3]
+  std::vector<double> n;                 // [sigma^-d]
   std::vector<std::uint32_t> particles;  // N
   std::vector<std::uint64_t> seeds;
   std::vector<double> tau_max;  // as long as e, or one: how far each is run [collisions/particle]

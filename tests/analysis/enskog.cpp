@@ -96,3 +96,15 @@ TEST_CASE("enskog: what has no answer is refused") {
   CHECK_THROWS_AS(contact_value(2.0), std::invalid_argument);
   CHECK_THROWS_AS(contact_value(n, 4), std::invalid_argument);
 }
+
+TEST_CASE("enskog: disks have Henderson's pressure, z = (1 + phi^2/8) / (1 - phi)^2") {
+  for (const double density : {0.05, 0.4, 0.8}) {
+    const double phi = packing_fraction(density, 2);
+    CHECK(equation_of_state(density, 2).z ==
+          Approx((1 + phi * phi / 8) / ((1 - phi) * (1 - phi))).epsilon(1e-14));
+  }
+  // Its third virial coefficient, 3.125 phi^2, is exact to a thousandth: 16/3 - 4 sqrt(3)/pi
+  // (L. Tonks, Phys. Rev. 50, 955 (1936)).
+  const double exact = 16.0 / 3 - 4 * std::numbers::sqrt3 / std::numbers::pi;
+  CHECK(3.125 == Approx(exact).epsilon(1e-3));
+}

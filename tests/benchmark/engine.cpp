@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   std::uint32_t particles = 4000;
   double n = 0.4;
   double e = 1;
+  int d = 3;
   std::uint64_t seed = 1;
   double warmup = 20;
   double tau = 20;
@@ -67,6 +68,7 @@ int main(int argc, char** argv) {
   CLI::App app("Collisions per second of the event-driven engine");
   app.add_option("--N", particles, "particles")->capture_default_str();
   app.add_option("--n", n, "number density")->capture_default_str();
+  app.add_option("--d", d, "dimension, 2 or 3")->capture_default_str();
   app.add_option("--e", e, "restitution coefficient")->capture_default_str();
   app.add_option("--seed", seed, "realization")->capture_default_str();
   app.add_option("--warmup", warmup, "elastic collisions per particle before")
@@ -78,7 +80,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   const auto prediction = scalar ? engine::Prediction::scalar : engine::Prediction::simd;
-  engine::State start = engine::initial_state(n, particles, seed);
+  engine::State start = engine::initial_state(n, particles, seed, d);
   if (warmup > 0) {
     // A state exists only at a synchronization.
     const double period = engine::synchronization_period;
@@ -95,6 +97,7 @@ int main(int argc, char** argv) {
   const engine::Events events = gas.events();
   const auto collisions = static_cast<double>(events.collisions);
   const nlohmann::ordered_json result{
+      {"d", d},
       {"N", particles},
       {"n", n},
       {"e", e},

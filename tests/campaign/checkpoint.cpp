@@ -74,8 +74,8 @@ TEST_CASE("checkpoint: a count whose bytes overflow is found behind a valid chec
   engine::State state = a_state();
   state.memory.clear();
   auto bytes = encode(state);
-  // The number of ids, after the fields' count and the field "box".
-  const std::size_t ids = 8 + 4 + 4 + (1 + 3 + 1 + 8 + 8) + (1 + 2 + 1);
+  // The number of ids, after the fields' count and the fields "d" and "box".
+  const std::size_t ids = 8 + 4 + 4 + (1 + 1 + 1 + 8 + 4) + (1 + 3 + 1 + 8 + 8) + (1 + 2 + 1);
   const std::uint64_t wrong = (std::uint64_t{1} << 62) + 100;
   std::memcpy(bytes.data() + ids, &wrong, sizeof wrong);
   bytes.resize(bytes.size() - 8);
@@ -92,4 +92,15 @@ TEST_CASE("checkpoint: an overlap behind a valid checksum is refused, pair and d
   state.position[1][2] += 0.75;
   CHECK_THROWS_WITH_AS(restore({.tau = 0, .collisions = 0, .state = encode(state)}, job),
                        doctest::Contains("overlap by 0.25"), DamagedCheckpoint);
+}
+
+TEST_CASE("checkpoint: disks stay disks, and are none of spheres") {
+  const schema::Job job{.d = 2, .e = 0.8, .n = 0.4, .particles = 100, .seed = 1};
+  const engine::State state = engine::initial_state(job.n, job.particles, 1, 2);
+  const schema::Checkpoint stored{.tau = 0, .collisions = 0, .state = encode(state)};
+  CHECK(restore(stored, job) == state);
+  schema::Job spheres = job;
+  spheres.d = 3;
+  CHECK_THROWS_WITH_AS(restore(stored, spheres), doctest::Contains("dimension 2"),
+                       DamagedCheckpoint);
 }

@@ -79,3 +79,11 @@ TEST_CASE("expansion: what is not physics does not change a job") {
                                 "tau_max": 90, "checkpoint_every": 20})");
   CHECK(identities(few) == identities(more));
 }
+
+TEST_CASE("expansion: spheres and disks, each with equilibrations of its own") {
+  const auto jobs =
+      jobs_of(R"({"d": [2, 3], "e": [0.8, 0.9], "n": 0.4, "N": 500, "seeds": 2, "tau_max": 20})");
+  CHECK(only(cooling, jobs).size() == 2 * 2 * 2);
+  CHECK(only(equilibration, jobs).size() == 2 * 2);
+  CHECK(identities(jobs).size() == jobs.size());
+}

@@ -1,4 +1,5 @@
-// Bricks: the 27 cells around a cell, the nine beyond a face, crowded bricks, leaving a cell.
+// Bricks: the 27 cells (of disks 9) around a cell, the nine beyond a face, crowded bricks, leaving
+// a cell.
 #include "engine/bricks.hpp"
 
 #include <doctest/doctest.h>
@@ -100,4 +101,26 @@ TEST_CASE("a particle leaves through the face ahead, when it gets there") {
   // Exactly on the face, and a hair beyond it: at once, never in the past.
   CHECK(bricks.exit(p, Cell{0}, 0.25 * cell).time == doctest::Approx(0.25 * cell));
   CHECK(bricks.exit(p, Cell{0}, 0.26 * cell).time == 0.26 * cell);
+}
+
+TEST_CASE("around a disk's cell are nine, beyond a face three, and nobody leaves up or down") {
+  const Box square(8.4, 2);
+  Bricks bricks(square, 2000);
+  for (std::uint32_t x = 0; x < 8; ++x)
+    for (std::uint32_t y = 0; y < 8; ++y) bricks.insert(x | y << 10, {x | y << 10});
+  for (const Cell centre : {Cell{0}, Cell{7 | 7 << 10}, Cell{3 | 4 << 10}}) {
+    CHECK(found(bricks, bricks.around<2>(centre)) ==
+          cells(centre, [](const int* offset) { return offset[2] == 0; }));
+    for (Face face = 0; face < 4; ++face) {
+      CAPTURE(face);
+      const int side = (face & 1) != 0 ? 1 : -1;
+      CHECK(found(bricks, bricks.beyond<2>(centre, face)) == cells(centre, [&](const int* offset) {
+              return offset[2] == 0 && offset[face / 2] == side;
+            }));
+    }
+  }
+  Particle p{};
+  p.position = {0.5, 0.5, 0};
+  p.velocity = {0, 1e-3, 0};
+  CHECK(bricks.exit<2>(p, Cell{0}, 0).face == 3);
 }

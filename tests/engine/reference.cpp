@@ -16,14 +16,15 @@ namespace {
 template <class Law = engine::ConstantRestitution>
 void agrees(std::uint32_t particles, double n, double restitution, std::uint64_t seed, double tau,
             engine::Prediction prediction, const engine::RestitutionLaw& law = {},
-            const std::map<std::string, engine::Parameters>& effects = {}) {
+            const std::map<std::string, engine::Parameters>& effects = {}, int d = 3) {
+  CAPTURE(d);
   CAPTURE(particles);
   CAPTURE(n);
   CAPTURE(restitution);
   CAPTURE(seed);
   const engine::Model model{
       .restitution = restitution, .law = law, .effects = effects, .seed = seed};
-  const engine::State start = engine::initial_state(n, particles, seed);
+  const engine::State start = engine::initial_state(n, particles, seed, d);
   engine::Simulation gas(model, start, prediction);
   tests::Reference<Law> reference(model, start);
   const std::int64_t last = engine::collisions_at(tau, particles);
@@ -110,4 +111,55 @@ TEST_CASE("actions equal the reference") {
   acted({{"shuffle", {{"every", 0.7}}}});
   acted({{"thermostat", {{"rate", 0.5}}}});
   acted({{"shuffle", {{"every", 3}}}, {"thermostat", {{"rate", 0.5}}}});
+}
+
+namespace {
+
+template <class Law = engine::ConstantRestitution>
+void disks_agree(std::uint32_t particles, double n, double e, std::uint64_t seed, double tau,
+                 engine::Prediction prediction, const engine::RestitutionLaw& law = {},
+                 const std::map<std::string, engine::Parameters>& effects = {}) {
+  agrees<Law>(particles, n, e, seed, tau, prediction, law, effects, 2);
+}
+
+}  // namespace
+
+TEST_CASE("disks equal the reference") {
+  for (const double e : {1.0, 0.8, 0.5}) {
+    disks_agree(30, 0.05, e, 7, 22, engine::Prediction::simd);
+    disks_agree(60, 0.4, e, 7, 21, engine::Prediction::simd);
+    disks_agree(80, 1.0, e, 7, 5, engine::Prediction::simd);
+  }
+  disks_agree(60, 0.4, 0.8, 7, 21, engine::Prediction::scalar);
+}
+
+// As the random scenes of spheres: most of these boxes are smaller than six diameters.
+TEST_CASE("random scenes of disks equal the reference") {
+  engine::Random random(20032, engine::Stream::velocities);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * random.uniform();
+  };
+  for (int scene = 0; scene < 40; ++scene) {
+    const double n = std::exp(between(std::log(0.02), std::log(0.85)));
+    const double side = between(2.1, 12);
+    const auto particles = std::clamp(static_cast<std::uint32_t>(n * side * side), 2u, 90u);
+    const double e = between(0, 1) < 0.2 ? 1 : between(0.4, 1);
+    const double least = 2.0 * 2.0;  // the smallest box [sigma^2]
+    disks_agree(particles, std::min(n, particles / (1.01 * least)), e,
+                static_cast<std::uint64_t>(scene), 10.5,
+                scene % 4 == 0 ? engine::Prediction::scalar : engine::Prediction::simd);
+  }
+}
+
+TEST_CASE("disks with laws of restitution and actions equal the reference") {
+  const engine::RestitutionLaw threshold{"threshold", {{"speed", 0.3}}};
+  const engine::RestitutionLaw tc{"tc", {{"t_c", 0.02}}};
+  for (const double e : {0.8, 0.3}) {
+    disks_agree<engine::ElasticThreshold>(60, 0.4, e, 7, 22, engine::Prediction::simd, threshold);
+    disks_agree<engine::ContactDuration>(60, 0.4, e, 7, 22, engine::Prediction::simd, tc);
+    disks_agree<engine::ContactDuration>(6, 0.4, e, 3, 40, engine::Prediction::simd, tc);
+  }
+  disks_agree(60, 0.4, 0.8, 7, 22, engine::Prediction::simd, {}, {{"shuffle", {{"every", 0.7}}}});
+  disks_agree(60, 0.4, 0.8, 7, 22, engine::Prediction::simd, {},
+              {{"thermostat", {{"rate", 0.5}}}});
 }

@@ -75,12 +75,13 @@ void try_grid(Random& random) {
 
 engine::State state_near_contact(Random& random) {
   const auto particles = static_cast<std::uint32_t>(2 + below(random, 60));
+  const int d = below(random, 4) == 0 ? 2 : 3;
   engine::State state =
-      engine::initial_state(0.02 + 0.5 * random.uniform(), particles, random.bits() >> 11);
+      engine::initial_state(0.02 + 0.5 * random.uniform(), particles, random.bits() >> 11, d);
   // Some pairs are put at a diameter, give or take a few roundings; some velocities are special.
   for (std::uint64_t k = below(random, 6); k-- > 0;) {
     const auto a = below(random, particles), b = below(random, particles);
-    const auto axis = below(random, 3);
+    const auto axis = below(random, static_cast<std::uint64_t>(d));
     const double step = 1 + (static_cast<double>(below(random, 9)) - 4) * 0x1p-52;
     state.position[b] = state.position[a];
     state.position[b][axis] += below(random, 2) == 0 ? step : 1 + 1e-9 * random.uniform();

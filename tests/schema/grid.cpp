@@ -250,11 +250,13 @@ TEST_CASE("a value of the wrong type or out of range is shown with what was expe
                   "g.json: /grids/1/e/1: 1.2 is not accepted; expected a normal restitution "
                   "coefficient, from 0 to 1");
   check_complaint(with("n", "0"),
-                  "g.json: /n: 0 is not accepted; expected a number density [sigma^-3], above 0 "
-                  "and below sqrt(2) = 1.41421 (close packing), or a list of them");
+                  "g.json: /n: 0 is not accepted; expected a number density [sigma^-d], above 0 "
+                  "and below sqrt(2) = 1.41421 (close packing; of disks 2/sqrt(3) = 1.1547), or a "
+                  "list of them");
   check_complaint(with("n", "1.5"),
-                  "g.json: /n: 1.5 is not accepted; expected a number density [sigma^-3], above 0 "
-                  "and below sqrt(2) = 1.41421 (close packing), or a list of them");
+                  "g.json: /n: 1.5 is not accepted; expected a number density [sigma^-d], above 0 "
+                  "and below sqrt(2) = 1.41421 (close packing; of disks 2/sqrt(3) = 1.1547), or a "
+                  "list of them");
   check_complaint(with("N", "1"),
                   "g.json: /N: 1 is not accepted; expected a number of particles, a whole number "
                   "of at least 2, or a list of them");
@@ -464,4 +466,24 @@ TEST_CASE("a target needs a standard error above 0 and a known quantity") {
         std::string::npos);
   CHECK(complaint(with_target(R"({"a2": {"se": 1e-3}})")).find("/target/a2") != std::string::npos);
   CHECK(complaint(with_target(R"({"a9": {"se": 1e-3}})")).find("/target") != std::string::npos);
+}
+
+TEST_CASE("a grid may be of disks: d is 3 unless it says 2, and disks have limits of their own") {
+  CHECK(parse(with("e", "0.8")).grids[0].d == std::vector{3});
+  CHECK(parse(with("d", "2")).grids[0].d == std::vector{2});
+  CHECK(parse(with("d", "[2, 3]")).grids[0].d == std::vector{2, 3});
+  check_complaint(with("d", "1"),
+                  "g.json: /d: 1 is not accepted; expected a dimension, 3 (spheres) or 2 (disks), "
+                  "or a list of both");
+  check_complaint(with("d", "[3, 2.5]"),
+                  "g.json: /d/1: 2.5 is not accepted; expected a dimension, 3 (spheres) or 2 "
+                  "(disks)");
+  check_complaint(R"({"d": 2, "e": 0.8, "n": [0.4, 1.2], "N": 1000, "seeds": 1, "tau_max": 90})",
+                  "g.json: /n/1: 1.2 is too dense for disks (d = 2); expected n below 2/sqrt(3) = "
+                  "1.1547 (close packing)");
+  CHECK(complaint(R"({"d": 3, "e": 0.8, "n": 1.2, "N": 1000, "seeds": 1, "tau_max": 90})") ==
+        "no complaint");
+  check_complaint(R"({"d": [2, 3], "e": 0.8, "n": 1, "N": 3, "seeds": 1, "tau_max": 90})",
+                  "g.json: /N: 3 disks at n = 1 make a box of side L = 1.73 sigma; expected L >= 2 "
+                  "sigma, N >= 4");
 }

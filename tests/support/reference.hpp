@@ -23,7 +23,7 @@ class Reference {
  public:
   Reference(const engine::Model& model, const engine::State& state)
       : law_(model.restitution, model.law.parameters),
-        box_(state.box),
+        box_(state),
         particles_(state.particles()),
         actions_(engine::actions_of(model, state)),
         clock_(engine::to_clock(state)) {
@@ -40,15 +40,16 @@ class Reference {
       for (const auto& p : particles_)
         fastest = std::max(fastest, engine::dot(p.velocity, p.velocity));
       // Until then nobody moves by more than a quarter of the box relative to another, so the
-      // contact is with one of the 27 images around the nearest.
+      // contact is with one of the 27 images around the nearest (of disks 9).
       const double horizon = clock_.now + 0.125 * box_.side / std::sqrt(fastest);
       // Time, then the smaller, then the larger id: the order of events that share a time.
       auto first = std::tuple(engine::never, 0u, 0u);
       std::size_t a = 0, b = 0;
       for (std::size_t i = 0; i < particles_.size(); ++i)
         for (std::size_t j = i + 1; j < particles_.size(); ++j)
-          for (int image = 0; image < 27; ++image) {
-            const engine::Vector boxes{image % 3 - 1.0, image / 3 % 3 - 1.0, image / 9 - 1.0};
+          for (int image = 0; image < (box_.d == 2 ? 9 : 27); ++image) {
+            const engine::Vector boxes{image % 3 - 1.0, image / 3 % 3 - 1.0,
+                                       box_.d == 2 ? 0 : image / 9 - 1.0};
             const double time = engine::HardSpheres::contact_time(
                 engine::Encounter(particles_[i], particles_[j], clock_.now, box_, boxes));
             const auto ids = std::minmax(particles_[i].id, particles_[j].id);
