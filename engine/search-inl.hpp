@@ -257,7 +257,8 @@ class SimdSearch {
         const V seen = fresh ? r : hn::Add(r, hn::Mul(v, to_now));
         r = hn::Sub(r, hn::Mul(hn::Round(hn::Mul(seen, inverse)), side));
       };
-      V rx, ry, rz, vx, vy, vz;
+      V rx, ry, vx, vy;
+      V rz = hn::Zero(d), vz = rz;
       relative(0, other.x, other.vx, rx, vx);
       relative(1, other.y, other.vy, ry, vy);
       if constexpr (dimension == 3) relative(2, other.z, other.vz, rz, vz);
