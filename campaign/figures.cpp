@@ -140,8 +140,8 @@ class Drawer {
 
 // The paper's gas is one of spheres.
 void mention_disks(const schema::Reader& store, std::ostream& report) {
-  auto rows = store.query(
-      "SELECT count(*) FROM jobs WHERE kind = 'cooling' AND d = 2 AND status = 'done'");
+  auto rows =
+      store.query("SELECT count(*) FROM jobs WHERE kind = 'cooling' AND d = 2 AND status = 'done'");
   const auto disks = std::get<std::int64_t>(rows.next().value()[0]);
   if (disks == 0) return;
   fmt::print(report,

@@ -26,7 +26,7 @@ class Thermostat : public Action {
   static constexpr std::string_view name = "thermostat";
 
   Thermostat(const Parameters& parameters, std::uint64_t seed, const State& start)
-      : rate_(positive(parameters, "rate")), seed_(seed), last_(start.time) {
+      : rate_(positive(parameters, "rate")), seed_(seed), d_(start.d), last_(start.time) {
     if (const auto found = start.memory.find(key); found != start.memory.end())
       last_ = found->second.at(0);
   }
@@ -36,15 +36,15 @@ class Thermostat : public Action {
   }
 
   void act(std::span<Particle> particles, const Clock& clock) override {
-    constexpr double d = 3;
     const double count = static_cast<double>(particles.size());
-    const double variance = 2 * rate_ / d * (clock.time() - last_);
+    const double variance = 2 * rate_ / d_ * (clock.time() - last_);
     last_ = clock.time();
     // What the mean takes away is made up for.
     const double width = std::ldexp(std::sqrt(variance * count / (count - 1)), clock.exponent);
     Random random(seed_, Stream::thermostat, static_cast<std::uint64_t>(clock.collisions));
     for (Particle& p : particles)
-      for (double& v : p.velocity) v += width * random.normal();
+      for (double& v : std::span(p.velocity).first(static_cast<std::size_t>(d_)))
+        v += width * random.normal();
     remove_momentum(particles);
   }
 
@@ -55,6 +55,7 @@ class Thermostat : public Action {
 
   double rate_;
   std::uint64_t seed_;
+  int d_;
   double last_;  // time of the last kick [sigma sqrt(m/E(0))]
 };
 

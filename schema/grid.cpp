@@ -23,8 +23,9 @@ namespace {
 // Disks that touch six others each. [sigma^-2]
 constexpr double densest_disks = 2 / std::numbers::sqrt3;
 
-// What disks may be asked for beyond a constant e.
-constexpr std::array<std::string_view, 1> effects_of_disks = {"restitution"};
+// What disks may be asked for beyond a constant e; another effect is refused beside d = 2, by name.
+constexpr std::array<std::string_view, 3> effects_of_disks = {"restitution", "shuffle",
+                                                              "thermostat"};
 
 // Below this side of the box a sphere would meet another one and its image at once. [sigma]
 constexpr double smallest_box = 2;

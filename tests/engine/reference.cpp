@@ -160,6 +160,5 @@ TEST_CASE("disks with laws of restitution and actions equal the reference") {
     disks_agree<engine::ContactDuration>(6, 0.4, e, 3, 40, engine::Prediction::simd, tc);
   }
   disks_agree(60, 0.4, 0.8, 7, 22, engine::Prediction::simd, {}, {{"shuffle", {{"every", 0.7}}}});
-  disks_agree(60, 0.4, 0.8, 7, 22, engine::Prediction::simd, {},
-              {{"thermostat", {{"rate", 0.5}}}});
+  disks_agree(60, 0.4, 0.8, 7, 22, engine::Prediction::simd, {}, {{"thermostat", {{"rate", 0.5}}}});
 }

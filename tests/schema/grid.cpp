@@ -183,18 +183,20 @@ TEST_CASE("an unknown key is named with the nearest known one") {
                   "g.json: /sample_evry: unknown key; did you mean \"sample_every\"?");
   check_complaint(R"({"grids": [{"e": 0.8}, {"seed": 1}]})",
                   "g.json: /grids/1/seed: unknown key; did you mean \"seeds\"?");
-  check_complaint(with("density", "1"),
-                  "g.json: /density: unknown key; expected one of \"N\", \"checkpoint_every\", "
-                  "\"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
-                  "\"observables\", "
-                  "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
+  check_complaint(
+      with("density", "1"),
+      "g.json: /density: unknown key; expected one of \"N\", \"checkpoint_every\", "
+      "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
+      "\"observables\", "
+      "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
   check_complaint(R"({"E": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 1})",
                   "g.json: /E: unknown key; did you mean \"e\"?");
-  check_complaint(with("a/b~c", "1"),
-                  "g.json: /a~1b~0c: unknown key; expected one of \"N\", \"checkpoint_every\", "
-                  "\"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
-                  "\"observables\", "
-                  "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
+  check_complaint(
+      with("a/b~c", "1"),
+      "g.json: /a~1b~0c: unknown key; expected one of \"N\", \"checkpoint_every\", "
+      "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
+      "\"observables\", "
+      "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
 }
 
 TEST_CASE("a missing key is named") {
