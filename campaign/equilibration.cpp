@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "campaign/measurement.hpp"
+#include "campaign/model.hpp"
 #include "campaign/timetable.hpp"
 #include "engine/initial.hpp"
 
@@ -30,7 +31,9 @@ Ending equilibrate(Attempt& attempt) {
   const std::int64_t too_long =
       synchronization_at_or_after(longest_equilibration * job.equilibrate);
   const auto stored = attempt.stored_state();
-  attempt.begin(stored ? *stored : engine::initial_state(job.n, job.particles, job.seed, job.d));
+  attempt.begin(
+      stored ? *stored
+             : engine::initial_state(job.n, job.particles, job.seed, job.d, model_of(job).effects));
 
   // As many samples as synchronizations lie behind, tau = 0 among them.
   for (auto k = static_cast<std::int64_t>(attempt.samples().size());; ++k) {

@@ -14,12 +14,13 @@
 #include "campaign/exit_code.hpp"
 #include "campaign/job_text.hpp"
 #include "campaign/restore.hpp"
+#include "engine/mixture.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {
 namespace {
 
-constexpr double radius = 0.5;  // [sigma]
+constexpr double radius = 0.5;  // of species 1, if there are two [sigma]
 
 // The box and its periods; disks lie in the middle of a layer one diameter high.
 std::string cell(const engine::State& state) {
@@ -53,12 +54,14 @@ void write(const engine::State& state, std::ostream& out) {
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     text.clear();
   };
+  const auto mixture = mixture_in(state);
   for (const std::size_t place : places_by_id(state)) {
     const auto& r = state.position[place];
     const auto& v = state.velocity[place];
     fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {}\n", state.id[place], r[0],
                    r[1], r[2], std::ldexp(v[0], -state.exponent), std::ldexp(v[1], -state.exponent),
-                   std::ldexp(v[2], -state.exponent), radius);
+                   std::ldexp(v[2], -state.exponent),
+                   mixture ? radius * mixture->diameter_of(state.id[place]) : radius);
     if (text.size() > chunk) flush();
   }
   flush();

@@ -12,6 +12,7 @@
 #include "analysis/moments.hpp"
 #include "analysis/structure.hpp"
 #include "analysis/velocity_correlations.hpp"
+#include "campaign/model.hpp"
 #include "campaign/timetable.hpp"
 
 namespace haff::campaign {
@@ -43,6 +44,33 @@ void measure_temperature(schema::Sample& sample, double temperature, double viri
   sample.collision_rate = if_finite(analysis::collision_rate(collisions, job.particles, elapsed));
   sample.pressure = if_finite(analysis::pressure(job.n, 0.5 * (before + temperature), virial,
                                                  job.particles, elapsed, job.d));
+}
+
+// Of a mixture every v stands for sqrt(m) v: then temperature and moments are of all particles
+// alike, and Gaussian in equilibrium.
+std::vector<engine::Vector> weighted_velocities(const engine::Simulation& gas,
+                                                const std::optional<engine::Mixture>& mixture) {
+  auto velocities = gas.velocities();
+  if (!mixture) return velocities;
+  const auto ids = gas.ids();
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    for (double& v : velocities[i]) v *= std::sqrt(mixture->mass_of(ids[i]));
+  return velocities;
+}
+
+void measure_species(schema::Sample& sample, const engine::Simulation& gas,
+                     const engine::Mixture& mixture, const schema::Job& job) {
+  const auto velocities = gas.velocities();
+  const auto ids = gas.ids();
+  std::array<double, 2> sum{};
+  std::array<double, 2> count{};
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::size_t species = mixture.is_second(ids[i]) ? 1 : 0;
+    for (const double v : velocities[i]) sum[species] += mixture.mass_of(ids[i]) * v * v;
+    ++count[species];
+  }
+  sample.temperature_1 = std::ldexp(sum[0] / (job.d * count[0]), -2 * gas.exponent());
+  sample.temperature_2 = std::ldexp(sum[1] / (job.d * count[1]), -2 * gas.exponent());
 }
 
 void measure_laguerre(schema::Sample& sample, const analysis::LaguerreCoefficients& a) {
@@ -113,7 +141,8 @@ schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double t
   sample.tau = tau;
   sample.time = gas.time();
 
-  const analysis::Moments moments = analysis::moments(gas.velocities(), job.d);
+  const auto mixture = mixture_of(job);
+  const analysis::Moments moments = analysis::moments(weighted_velocities(gas, mixture), job.d);
   const engine::Tally tally = gas.take_tally();
   if (asks_for(job, "temperature")) {
     const double temperature = std::ldexp(moments.temperature, -2 * gas.exponent());
@@ -121,6 +150,9 @@ schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double t
         previous ? gas.collisions() - engine::collisions_at(previous->tau, job.particles) : 0;
     measure_temperature(sample, temperature, tally.virial, static_cast<double>(collisions), job,
                         previous);
+    if (const auto energy = gas.rotational_energy())
+      sample.rotational_temperature = std::ldexp(*energy * 2 / job.d, -2 * gas.exponent());
+    if (mixture) measure_species(sample, gas, *mixture, job);
   }
   if (asks_for(job, "laguerre")) measure_laguerre(sample, moments.laguerre);
   return sample;

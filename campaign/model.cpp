@@ -20,4 +20,11 @@ engine::Model model_of(const schema::Job& job) {
   return model;
 }
 
+std::optional<engine::Mixture> mixture_of(const schema::Job& job) {
+  const engine::Model model = model_of(job);
+  const auto asked = model.effects.find("mixture");
+  if (asked == model.effects.end()) return std::nullopt;
+  return engine::mixture_of(asked->second, job.particles);
+}
+
 }  // namespace haff::campaign

@@ -1,11 +1,17 @@
 // From a job to the model the engine runs.
 #pragma once
 
+#include <optional>
+
+#include "engine/mixture.hpp"
 #include "engine/simulation.hpp"
 #include "schema/job.hpp"
 
 namespace haff::campaign {
 
 engine::Model model_of(const schema::Job& job);
+
+// The mixture that the job's gas is, if it is one.
+std::optional<engine::Mixture> mixture_of(const schema::Job& job);
 
 }  // namespace haff::campaign

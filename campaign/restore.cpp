@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "campaign/job_text.hpp"
+#include "campaign/model.hpp"
 #include "engine/simulation.hpp"
 #include "engine/soundness.hpp"
 
@@ -28,6 +29,7 @@ std::optional<std::string> contradiction(const engine::State& state,
       state.collisions != engine::collisions_at(checkpoint.tau, job.particles))
     return fmt::format("it holds the state after {} collisions, which is not tau = {}",
                        state.collisions, checkpoint.tau);
+  if (mixture_in(state) != mixture_of(job)) return "it holds a gas of other species";
   return unsoundness(state);
 }
 

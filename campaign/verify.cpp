@@ -9,11 +9,11 @@
 #include <variant>
 
 #include "analysis/cooling.hpp"
-#include "analysis/moments.hpp"
 #include "campaign/command_text.hpp"
 #include "campaign/exit_code.hpp"
 #include "campaign/job_text.hpp"
 #include "campaign/measurement.hpp"
+#include "campaign/model.hpp"
 #include "campaign/restore.hpp"
 #include "campaign/text_table.hpp"
 #include "campaign/timetable.hpp"
@@ -36,8 +36,26 @@ constexpr double elastic_drift = 1e-9;
 
 using Faults = std::vector<std::string>;
 
-double temperature_of(const engine::State& state, int d) {
-  return std::ldexp(analysis::moments(state.velocity, d).temperature, -2 * state.exponent);
+// Of translation and, in rough spheres, rotation: what collisions cannot make more.
+double total(const Sample& sample) {
+  return *sample.temperature + sample.rotational_temperature.value_or(0);
+}
+
+double total(const engine::State& state, const schema::Job& job) {
+  const auto mixture = mixture_in(state);
+  double sum = 0;
+  for (std::size_t i = 0; i < state.id.size(); ++i) {
+    const auto& v = state.velocity[i];
+    sum +=
+        (mixture ? mixture->mass_of(state.id[i]) : 1) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  }
+  const engine::Model model = model_of(job);
+  const auto roughness = model.effects.find("roughness");
+  const auto spin = state.memory.find("spin");
+  if (roughness != model.effects.end() && spin != state.memory.end())
+    for (const double w : spin->second) sum += roughness->second.at("q") * w * w;
+  const double components = static_cast<double>(job.d) * state.particles();
+  return std::ldexp(sum / components, -2 * state.exponent);
 }
 
 // Only who is heated may grow warmer.
@@ -58,7 +76,7 @@ void check_order(const std::vector<Sample>& samples, const JobRow& row, Faults& 
     if (now.time < before.time)
       faults.push_back(fmt::format("time runs backwards at tau = {}", now.tau));
     if (now.temperature && before.temperature && !is_heated(row.job) &&
-        *now.temperature > *before.temperature * (1 + elastic_drift))
+        total(now) > total(before) * (1 + elastic_drift))
       faults.push_back(fmt::format("the gas grows warmer at tau = {}", now.tau));
   }
 }
@@ -94,12 +112,12 @@ void check_complete(const Reader& store, const JobRow& row, const std::vector<Sa
 // samples around it.
 void check_energy(const engine::State& state, const JobRow& row, const std::vector<Sample>& samples,
                   Faults& faults) {
-  const double temperature = temperature_of(state, row.job.d);
+  const double temperature = total(state, row.job);
   for (const Sample& sample : samples) {
     if (!sample.temperature) continue;
     const std::int64_t collisions = engine::collisions_at(sample.tau, row.job.particles);
     if (collisions != state.collisions && is_heated(row.job)) continue;
-    const double excess = temperature / *sample.temperature - 1;
+    const double excess = temperature / total(sample) - 1;
     const bool agrees = collisions < state.collisions   ? excess <= energy_rounding
                         : collisions > state.collisions ? excess >= -energy_rounding
                                                         : std::abs(excess) <= energy_rounding;
@@ -107,7 +125,7 @@ void check_energy(const engine::State& state, const JobRow& row, const std::vect
     faults.push_back(
         fmt::format("the checkpoint after {} collisions has temperature {:.17g}, the sample at tau "
                     "= {} {:.17g}",
-                    state.collisions, temperature, sample.tau, *sample.temperature));
+                    state.collisions, temperature, sample.tau, total(sample)));
     return;
   }
 }

@@ -21,4 +21,10 @@ struct Clock {
   double time() const;  // true
 };
 
+// Kinetic energy of rotation per particle, in scaled units.
+struct Rotation {
+  double before = 0;  // at the last synchronization
+  double now = 0;
+};
+
 }  // namespace haff::engine

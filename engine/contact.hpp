@@ -29,8 +29,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "engine/clock.hpp"
+#include "engine/masses.hpp"
 #include "engine/particle.hpp"
 
 namespace haff::engine {
@@ -88,8 +92,8 @@ struct Encounter {
 
 // Spheres of diameter sigma.
 struct HardSpheres {
-  // Time at which a and b touch, or never.
-  static double contact_time(const Encounter& pair) {
+  // Time at which the two touch, or never.
+  static double contact_time(const Encounter& pair, const Particle&, const Particle&) {
     const double approach = dot(pair.r, pair.v);
     const double gap = dot(pair.r, pair.r) - 1;
     const double discriminant = approach * approach - dot(pair.v, pair.v) * gap;
@@ -97,6 +101,14 @@ struct HardSpheres {
     // The root written so that it does not cancel when the pair is close.
     return pair.start + std::max(gap, 0.0) / (std::sqrt(discriminant) - approach);
   }
+};
+
+// Spheres of mass 1 that carry nothing but their records: what a physics says of itself unless it
+// says otherwise.
+struct OneOfAKind {
+  static EqualMasses masses() { return {}; }
+  static std::optional<Rotation> rotation() { return std::nullopt; }
+  static std::size_t memory() { return 0; }  // bytes, beside the records
 };
 
 // What a law of restitution (laws.hpp) may know of a collision.
@@ -111,8 +123,9 @@ struct Impact {
 
 // Smooth spheres; the law says with which e two of them part.
 template <class Law>
-struct SmoothSpheres : HardSpheres {
-  explicit SmoothSpheres(const Law& restitution_law) : law(restitution_law) {}
+class SmoothSpheres : public HardSpheres, public OneOfAKind {
+ public:
+  explicit SmoothSpheres(Law law) : law_(std::move(law)) {}
 
   // Lets a and b collide `now`. Adds loss and virial, in the units of the scaled velocities.
   // Returns r.v before, which is negative.
@@ -125,7 +138,7 @@ struct SmoothSpheres : HardSpheres {
     const Encounter contact(a, b, now, box);
     const double approach = dot(contact.r, contact.v);
     const double distance2 = dot(contact.r, contact.r);
-    const double e = law({a, b, a_time, b_time, now, approach * approach / distance2});
+    const double e = law_({a, b, a_time, b_time, now, approach * approach / distance2});
     exchange(a, b, contact, 0.5 * (1 + e) * approach / distance2);
     clock.tally.virial -= 0.5 * (1 + e) * approach;
     clock.tally.dissipated += 0.25 * (1 - e * e) * approach * approach / distance2;
@@ -133,7 +146,16 @@ struct SmoothSpheres : HardSpheres {
     return approach;
   }
 
-  const Law& law;
+  // What the law remembers (law.hpp).
+  void recall(const State& state) { law_.recall(state); }
+  void store(State& state) const { law_.store(state); }
+  void before_synchronization(std::span<const Particle> particles, double now) {
+    law_.before_synchronization(particles, now);
+  }
+  void scale(int exponent) { law_.scale(exponent); }
+
+ private:
+  Law law_;
 };
 
 }  // namespace haff::engine

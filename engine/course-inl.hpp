@@ -1,4 +1,5 @@
-// A course by its search and its law. Compiled once for each SIMD target, like the loop it runs.
+// A course by its search and its physics. Compiled once for each SIMD target, like the loop it
+// runs.
 #if defined(HAFF_ENGINE_COURSE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef HAFF_ENGINE_COURSE_INL
 #undef HAFF_ENGINE_COURSE_INL
@@ -13,25 +14,32 @@
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-template <class Search, class Law, bool prefetching = false>
+template <class Search, class Physics, bool prefetching = false>
 class CourseOf : public Course {
  public:
-  CourseOf(const Law& law, const State& start) : law_(law) { law_.recall(start); }
+  CourseOf(Physics physics, const State& start) : physics_(std::move(physics)) {
+    physics_.recall(start);
+  }
   void run(Gas& gas, std::int64_t collisions, double end) override {
-    EventLoop<Search, SmoothSpheres<Law>, prefetching>(gas, physics_).run(collisions, end);
+    EventLoop<Search, Physics, prefetching>(gas, physics_).run(collisions, end);
   }
-  void predict_all(Gas& gas) override {
-    EventLoop<Search, SmoothSpheres<Law>>(gas, physics_).predict_all();
+  void predict_all(Gas& gas) override { EventLoop<Search, Physics>(gas, physics_).predict_all(); }
+  void start(Gas& gas) override { engine::start(gas.particles, gas.clock, physics_.masses()); }
+  void audit(Gas& gas, double allowed_overlap) override {
+    engine::audit(gas.particles, gas.clock, allowed_overlap, physics_.masses(),
+                  physics_.rotation().value_or(Rotation{}));
   }
-  void store(State& state) const override { law_.store(state); }
-  void before_synchronization(const Gas& gas) override {
-    law_.before_synchronization(gas.particles, gas.clock.now);
+  void synchronize(Gas& gas) override {
+    physics_.before_synchronization(gas.particles, gas.clock.now);
+    engine::synchronize(gas.particles, gas.clock, gas.box, physics_.masses());
   }
-  void scale(int exponent) override { law_.scale(exponent); }
+  void store(State& state) const override { physics_.store(state); }
+  void scale(int exponent) override { physics_.scale(exponent); }
+  std::optional<Rotation> rotation() const override { return physics_.rotation(); }
+  std::size_t memory() const override { return physics_.memory(); }
 
  private:
-  Law law_;
-  SmoothSpheres<Law> physics_{law_};
+  Physics physics_;
 };
 
 }  // namespace haff::engine::HWY_NAMESPACE

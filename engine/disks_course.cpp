@@ -15,7 +15,7 @@ namespace haff::engine::HWY_NAMESPACE {
 
 std::unique_ptr<Course> simd_disks(const Model& model, const State& start) {
   return with_law(model, [&]<class Law>(const Law& law) -> std::unique_ptr<Course> {
-    return std::make_unique<CourseOf<SimdSearch<2>, Law>>(law, start);
+    return std::make_unique<CourseOf<SimdSearch<2>, SmoothSpheres<Law>>>(SmoothSpheres(law), start);
   });
 }
 

@@ -26,7 +26,7 @@ namespace haff::engine::HWY_NAMESPACE {
 template <class Search, class Physics, bool prefetching = false>
 class EventLoop {
  public:
-  EventLoop(Gas& gas, const Physics& physics)
+  EventLoop(Gas& gas, Physics& physics)
       : gas_(gas),
         physics_(physics),
         search_(gas, physics),
@@ -171,7 +171,7 @@ class EventLoop {
   static constexpr std::uint32_t stride = 4;  // slots between two steps of look_ahead()
 
   Gas& gas_;
-  const Physics& physics_;
+  Physics& physics_;
   std::uint64_t looked_at_ = 0;
   Search search_;
   double now_;

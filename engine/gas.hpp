@@ -2,8 +2,11 @@
 // next, and the clock. The event loop (event_loop-inl.hpp) moves it.
 #pragma once
 
+#include <optional>
+
 #include "engine/bricks.hpp"
 #include "engine/calendar.hpp"
+#include "engine/mixture.hpp"
 #include "engine/simulation.hpp"
 #include "engine/synchronize.hpp"
 
@@ -15,7 +18,8 @@ struct Gas {
         particles(state.particles()),
         bricks(box, state.particles()),
         calendar(state.particles()),
-        clock(to_clock(state)) {
+        clock(to_clock(state)),
+        mixture(mixture_in(state)) {
     copy_particles(state, particles);
   }
 
@@ -25,6 +29,8 @@ struct Gas {
   Calendar calendar;
   Clock clock;
   Events events;
+  std::optional<Mixture>
+      mixture;  // for what is asked seldom; collisions know it from their physics
 };
 
 // Cells and an empty calendar for a gas that has just been synchronized.

@@ -21,7 +21,7 @@ constexpr double least_growth = 1e-5;
 struct GrowingSpheres {
   double diameter;
 
-  double contact_time(const Encounter& pair) const {
+  double contact_time(const Encounter& pair, const Particle&, const Particle&) const {
     const double wide = diameter + growth_rate * pair.start;
     const double approach = dot(pair.r, pair.v) - wide * growth_rate;
     const double speed2 = dot(pair.v, pair.v) - growth_rate * growth_rate;
@@ -72,7 +72,7 @@ void cool(Gas& gas) {
 
 // Until the next synchronization, or until the spheres are full-grown.
 template <class Candidates, int d>
-void grow_among(Gas& gas, const GrowingSpheres& spheres, std::int64_t collisions) {
+void grow_among(Gas& gas, GrowingSpheres spheres, std::int64_t collisions) {
   Loop<Candidates, d> loop(gas, spheres);
   loop.predict_all();
   loop.run(collisions, (1 - spheres.diameter) / growth_rate);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "engine/growth.hpp"
 #include "engine/random.hpp"
@@ -90,18 +91,30 @@ std::vector<Vector> lattice_positions(std::uint32_t count, const Box& box) {
   return positions;
 }
 
-void set_energy(std::vector<Particle>& particles, double energy) {
-  const double factor = std::sqrt(energy / kinetic_energy(particles));
+template <class Masses>
+void set_energy(std::vector<Particle>& particles, double energy, const Masses& masses) {
+  const double factor = std::sqrt(energy / kinetic_energy(particles, masses));
   for (Particle& p : particles)
     for (double& v : p.velocity) v *= factor;
 }
 
-void draw_velocities(std::vector<Particle>& particles, std::uint64_t seed, int d) {
+// All species at one temperature.
+template <class Masses>
+void draw_velocities(std::vector<Particle>& particles, std::uint64_t seed, int d,
+                     const Masses& masses) {
   Random random(seed, Stream::velocities);
   for (Particle& p : particles)
-    for (double& v : std::span(p.velocity).first(static_cast<std::size_t>(d))) v = random.normal();
-  remove_momentum(particles);
-  set_energy(particles, 1);
+    for (double& v : std::span(p.velocity).first(static_cast<std::size_t>(d)))
+      v = random.normal() / std::sqrt(masses.of(p));
+  remove_momentum(particles, masses);
+  set_energy(particles, 1, masses);
+}
+
+// Who is where: species at random (R. Durstenfeld's shuffle).
+void mix(std::vector<Particle>& particles, std::uint64_t seed) {
+  Random random(seed, Stream::mixture);
+  for (std::size_t k = particles.size() - 1; k > 0; --k)
+    std::swap(particles[k].id, particles[random.below(k + 1)].id);
 }
 
 // Where the particles of a new gas are.
@@ -117,7 +130,8 @@ std::vector<Vector> initial_positions(std::uint32_t count, const Box& box, std::
 
 }  // namespace
 
-State initial_state(double n, std::uint32_t count, std::uint64_t seed, int d) {
+State initial_state(double n, std::uint32_t count, std::uint64_t seed, int d,
+                    const std::map<std::string, Parameters>& effects) {
   const Box box(d == 2 ? std::sqrt(count / n) : cube_root(count / n), d);
   const std::vector<Vector> positions = initial_positions(count, box, seed);
   std::vector<Particle> particles(count);
@@ -125,17 +139,34 @@ State initial_state(double n, std::uint32_t count, std::uint64_t seed, int d) {
     particles[k].position = positions[k];
     particles[k].id = k;
   }
-  draw_velocities(particles, seed, d);
+  const auto asked = effects.find("mixture");
+  if (asked == effects.end()) {
+    draw_velocities(particles, seed, d, EqualMasses{});
+    sort_in_space(particles, box);
+    return to_state(particles, Clock{}, box);
+  }
+  const Mixture mixture = mixture_of(asked->second, count);
+  mix(particles, seed);
+  draw_velocities(particles, seed, d, MixedMasses{mixture});
   sort_in_space(particles, box);
-  return to_state(particles, Clock{}, box);
+  State state = to_state(particles, Clock{}, box);
+  note(mixture, state);
+  return state;
 }
 
 State restarted(const State& state) {
   const Box box(state);
   std::vector<Particle> particles(state.id.size());
   copy_particles(state, particles);
-  set_energy(particles, 1);
-  return to_state(particles, Clock{}, box);
+  const auto mixture = mixture_in(state);
+  if (!mixture) {
+    set_energy(particles, 1, EqualMasses{});
+    return to_state(particles, Clock{}, box);
+  }
+  set_energy(particles, 1, MixedMasses{*mixture});
+  State start = to_state(particles, Clock{}, box);
+  note(*mixture, start);
+  return start;
 }
 
 }  // namespace haff::engine

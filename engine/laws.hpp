@@ -14,13 +14,11 @@
 // for, and has nothing of the others.
 #pragma once
 
-#include <memory>
 #include <stdexcept>
 #include <tuple>
 
 #include "engine/constant_restitution.hpp"
 #include "engine/contact_duration.hpp"
-#include "engine/course.hpp"
 #include "engine/elastic_threshold.hpp"
 #include "engine/viscoelastic.hpp"
 
@@ -28,19 +26,19 @@ namespace haff::engine {
 
 using Laws = std::tuple<ConstantRestitution, ElasticThreshold, ContactDuration, Viscoelastic>;
 
-// course(law), with the law that the model asks for. Throws std::invalid_argument if there is none.
-template <class CourseBy>
-std::unique_ptr<Course> with_law(const Model& model, const CourseBy& course_by) {
-  std::unique_ptr<Course> course;
+// What `make` makes of the law that the model asks for. Throws std::invalid_argument if there is
+// none.
+template <class Make>
+auto with_law(const Model& model, const Make& make) {
+  decltype(make(ConstantRestitution(1))) made;
   const auto try_law = [&]<class Law>(const Law*) {
-    if (Law::name == model.law.name)
-      course = course_by(Law(model.restitution, model.law.parameters));
+    if (Law::name == model.law.name) made = make(Law(model.restitution, model.law.parameters));
   };
   [&]<class... Law>(const std::tuple<Law...>*) {
     (try_law(static_cast<const Law*>(nullptr)), ...);
   }(static_cast<const Laws*>(nullptr));
-  if (!course) throw std::invalid_argument("there is no law of restitution " + model.law.name);
-  return course;
+  if (!made) throw std::invalid_argument("there is no law of restitution " + model.law.name);
+  return made;
 }
 
 }  // namespace haff::engine

@@ -11,10 +11,14 @@ std::unique_ptr<Course> plain_course_in(const Model& model, const Gas& gas, cons
   using HWY_NAMESPACE::CourseOf;
   return with_law(model, [&]<class Law>(const Law& law) -> std::unique_ptr<Course> {
     if (!Bricks::fits(gas.box))
-      return std::make_unique<CourseOf<PlainSearch<HardSpheres, Everybody, d>, Law>>(law, start);
+      return std::make_unique<CourseOf<PlainSearch<HardSpheres, Everybody, d>, SmoothSpheres<Law>>>(
+          SmoothSpheres(law), start);
     if (!gas.bricks.tell_images_apart())
-      return std::make_unique<CourseOf<PlainSearch<HardSpheres, NearImages, d>, Law>>(law, start);
-    return std::make_unique<CourseOf<PlainSearch<HardSpheres, Near, d>, Law>>(law, start);
+      return std::make_unique<
+          CourseOf<PlainSearch<HardSpheres, NearImages, d>, SmoothSpheres<Law>>>(SmoothSpheres(law),
+                                                                                 start);
+    return std::make_unique<CourseOf<PlainSearch<HardSpheres, Near, d>, SmoothSpheres<Law>>>(
+        SmoothSpheres(law), start);
   });
 }
 

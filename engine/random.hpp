@@ -8,7 +8,13 @@
 
 namespace haff::engine {
 
-enum class Stream : std::uint64_t { velocities = 1, growth = 2, shuffle = 3, thermostat = 4 };
+enum class Stream : std::uint64_t {
+  velocities = 1,
+  growth = 2,
+  shuffle = 3,
+  thermostat = 4,
+  mixture = 5
+};
 
 // xoshiro256** (D. Blackman and S. Vigna, ACM TOMS 47, 36 (2021)), seeded by splitmix64.
 class Random {

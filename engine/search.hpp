@@ -108,8 +108,10 @@ class PlainSearch {
     Contact best;
     Candidates::template visit<d>(gas_, wanted, [&](std::uint32_t q, const Vector& image) {
       if (q == p) return;
-      const Encounter pair(gas_.particles[p], gas_.particles[q], now, gas_.box, image);
-      keep_first(best, {physics_.contact_time(pair), q}, gas_.particles);
+      const Particle& own = gas_.particles[p];
+      const Particle& other = gas_.particles[q];
+      const Encounter pair(own, other, now, gas_.box, image);
+      keep_first(best, {physics_.contact_time(pair, own, other), q}, gas_.particles);
     });
     return best;
   }

@@ -1,6 +1,7 @@
 // Compiled once for each SIMD target; the best one the processor has is chosen at run time.
 #include "engine/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -21,9 +22,10 @@ constexpr std::size_t worth_prefetching = 16000;
 
 std::unique_ptr<Course> simd_course(const Model& model, const Gas& gas, const State& start) {
   return with_law(model, [&]<class Law>(const Law& law) -> std::unique_ptr<Course> {
+    using Physics = SmoothSpheres<Law>;
     if (gas.particles.size() < worth_prefetching)
-      return std::make_unique<CourseOf<SimdSearch<3>, Law>>(law, start);
-    return std::make_unique<CourseOf<SimdSearch<3>, Law, true>>(law, start);
+      return std::make_unique<CourseOf<SimdSearch<3>, Physics>>(Physics(law), start);
+    return std::make_unique<CourseOf<SimdSearch<3>, Physics, true>>(Physics(law), start);
   });
 }
 
@@ -40,6 +42,15 @@ namespace haff::engine {
 HWY_EXPORT(simd_course);
 HWY_EXPORT(target_name);
 
+namespace {
+
+bool is_effect(std::string_view name) {
+  return is_action(name) || std::any_of(other_physics.begin(), other_physics.end(),
+                                        [&](const auto& other) { return other.effect == name; });
+}
+
+}  // namespace
+
 class Simulation::Implementation {
  public:
   Implementation(const Model& model, const State& state, Prediction prediction)
@@ -47,8 +58,8 @@ class Simulation::Implementation {
         course(choose(model, gas, state, prediction)),
         actions(actions_of(model, state)) {
     for (const auto& [name, parameters] : model.effects)
-      if (!is_action(name)) throw std::invalid_argument("there is no effect " + name);
-    start(gas.particles, gas.clock);
+      if (!is_effect(name)) throw std::invalid_argument("there is no effect " + name);
+    course->start(gas);
     begin_period();
   }
 
@@ -79,6 +90,11 @@ class Simulation::Implementation {
 
   static std::unique_ptr<Course> choose(const Model& model, const Gas& gas, const State& state,
                                         Prediction prediction) {
+    for (const OtherPhysics& other : other_physics)
+      if (model.effects.contains(std::string(other.effect)))
+        return other.course(model, gas, state, prediction);
+    if (mixture_in(state))
+      throw std::invalid_argument("the state is of a mixture, and the model asks for none");
     const bool simd =
         prediction == Prediction::simd && Bricks::fits(gas.box) && gas.bricks.tell_images_apart();
     if (!simd) return plain_course(model, gas, state);
@@ -88,10 +104,9 @@ class Simulation::Implementation {
 
   void synchronize_now() {
     if (is_long) must_have_progressed(gas, expected);
-    audit(gas.particles, gas.clock,
-          allowed_overlap(count() / gas.box.volume(), gas.clock.now / expected, gas.box.d));
-    course->before_synchronization(gas);
-    synchronize(gas.particles, gas.clock, gas.box);
+    course->audit(gas,
+                  allowed_overlap(count() / gas.box.volume(), gas.clock.now / expected, gas.box.d));
+    course->synchronize(gas);
     act(actions, gas.particles, gas.clock);
     begin_period();
   }
@@ -163,6 +178,18 @@ std::vector<Vector> Simulation::positions() const {
   return all;
 }
 
+std::vector<std::uint32_t> Simulation::ids() const {
+  std::vector<std::uint32_t> all;
+  all.reserve(particles());
+  for (const Particle& p : self_->gas.particles) all.push_back(p.id);
+  return all;
+}
+
+std::optional<double> Simulation::rotational_energy() const {
+  const auto rotation = self_->course->rotation();
+  return rotation ? std::optional(rotation->now) : std::nullopt;
+}
+
 Tally Simulation::take_tally() {
   return engine::take_tally(self_->gas.clock);
 }
@@ -185,7 +212,8 @@ Events Simulation::events() const {
 
 std::size_t Simulation::memory() const {
   const Gas& gas = self_->gas;
-  return gas.particles.capacity() * sizeof(Particle) + gas.bricks.memory() + gas.calendar.memory();
+  return gas.particles.capacity() * sizeof(Particle) + gas.bricks.memory() + gas.calendar.memory() +
+         self_->course->memory();
 }
 
 }  // namespace haff::engine

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -94,7 +95,12 @@ class Simulation {
   // trajectory alone. Positions at time(), in [0, L), in the same order.
   std::vector<Vector> velocities() const;
   std::vector<Vector> positions() const;
+  std::vector<std::uint32_t> ids() const;  // in the same order
   int exponent() const;
+
+  // Kinetic energy of rotation per particle, scaled as velocity squared; nothing if spheres do not
+  // rotate.
+  std::optional<double> rotational_energy() const;
 
   // What collisions did since the last call.
   Tally take_tally();

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/mixture.hpp"
 #include "engine/particle.hpp"
 
 namespace haff::engine {
@@ -97,6 +98,17 @@ bool is_finite(const Vector& v) {
   return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
 }
 
+std::optional<std::string> unsound_mixture(const State& state) {
+  const auto mixture = mixture_in(state);
+  if (!mixture || (mixture->first > 0 && mixture->first < state.particles() &&
+                   mixture->diameter > 0 && mixture->diameter <= 1 && mixture->mass > 0))
+    return std::nullopt;
+  return text(
+      "a mixture of %u particles, the others of diameter %g and mass %g (0 to 1 and above "
+      "0 expected)",
+      mixture->first, mixture->diameter, mixture->mass);
+}
+
 std::optional<std::string> unsound_numbers(const State& state) {
   if (state.d != 2 && state.d != 3) return text("dimension %d (2 or 3 expected)", state.d);
   const std::size_t particles = state.id.size();
@@ -128,16 +140,21 @@ std::optional<std::string> unsound_numbers(const State& state) {
       return text("disk %u has left its plane: z = %g, v_z = %g", id, state.position[i][2],
                   state.velocity[i][2]);
   }
-  return std::nullopt;
+  return unsound_mixture(state);
 }
 
 std::optional<std::string> deepest_overlap(const State& state) {
   const double allowed = allowed_overlap(state.particles() / Box(state).volume(), 1, state.d);
   const double closest2 = (1 - allowed) * (1 - allowed);
+  const auto mixture = mixture_in(state);
   double least2 = closest2;
   std::pair<std::size_t, std::size_t> pair;
   Cells(state).for_each_pair([&](std::size_t i, std::size_t j) {
-    const double r2 = distance2(state.position[i], state.position[j], state.box);
+    double r2 = distance2(state.position[i], state.position[j], state.box);
+    if (mixture) {  // in contact distances
+      const double contact = mixture->contact_distance(state.id[i], state.id[j]);
+      r2 /= contact * contact;
+    }
     if (r2 < least2) {
       least2 = r2;
       pair = {i, j};

@@ -39,9 +39,10 @@ std::uint64_t place_on_curve(const Vector& position, const Box& box) {
   return place;
 }
 
-void rescale(std::span<Particle> particles, Clock& clock) {
+template <class Masses>
+void rescale(std::span<Particle> particles, Clock& clock, const Masses& masses) {
   int doublings = 0;
-  double energy = kinetic_energy(particles);
+  double energy = kinetic_energy<Masses>(particles, masses);
   if (!std::isfinite(energy)) throw Breakdown("the kinetic energy is not finite");
   if (energy < smallest_normal) return;  // nobody moves
   for (; energy < smallest_energy; energy *= 4) ++doublings;
@@ -65,11 +66,14 @@ void settle(Clock& clock) {
 
 }  // namespace
 
-void audit(std::span<const Particle> particles, Clock& clock, double allowed_overlap) {
-  const double energy = kinetic_energy(particles);
+template <class Masses>
+void audit(std::span<const Particle> particles, Clock& clock, double allowed_overlap,
+           const Masses& masses, const Rotation& rotation) {
+  const double before = clock.energy + rotation.before;
+  const double energy = kinetic_energy(particles, masses) + rotation.now;
   const double lost =
       (clock.taken + clock.tally.dissipated) / static_cast<double>(particles.size());
-  const double mismatch = std::abs(clock.energy - energy - lost) / clock.energy;
+  const double mismatch = std::abs(before - energy - lost) / before;
   clock.invariants.energy_mismatch = std::max(clock.invariants.energy_mismatch, mismatch);
   const std::optional<std::string> broken = std::isfinite(energy)
                                                 ? violation(clock.invariants, allowed_overlap)
@@ -78,9 +82,10 @@ void audit(std::span<const Particle> particles, Clock& clock, double allowed_ove
     throw Breakdown(*broken + ", after " + std::to_string(clock.collisions) + " collisions");
 }
 
-void start(std::span<Particle> particles, Clock& clock) {
-  rescale(particles, clock);
-  clock.energy = kinetic_energy(particles);
+template <class Masses>
+void start(std::span<Particle> particles, Clock& clock, const Masses& masses) {
+  rescale(particles, clock, masses);
+  clock.energy = kinetic_energy<Masses>(particles, masses);
 }
 
 Tally take_tally(Clock& clock) {
@@ -104,7 +109,9 @@ double Clock::time() const {
   return start + std::ldexp(now, exponent);
 }
 
-void synchronize(std::span<Particle> particles, Clock& clock, const Box& box) {
+template <class Masses>
+void synchronize(std::span<Particle> particles, Clock& clock, const Box& box,
+                 const Masses& masses) {
   for (Particle& p : particles) {
     advance(p, clock.now);
     p.position = wrapped(p.position, box);
@@ -116,11 +123,12 @@ void synchronize(std::span<Particle> particles, Clock& clock, const Box& box) {
   clock.start = clock.time();
   clock.now = 0;
   // Against the speeds at the beginning of the period, in which the rounding was done.
-  const double slowed = clock.energy > 0 ? std::sqrt(kinetic_energy(particles) / clock.energy) : 1;
-  const double momentum = remove_momentum(particles) * std::min(slowed, 1.0);
+  const double slowed =
+      clock.energy > 0 ? std::sqrt(kinetic_energy<Masses>(particles, masses) / clock.energy) : 1;
+  const double momentum = remove_momentum(particles, masses) * std::min(slowed, 1.0);
   clock.invariants.momentum_removed = std::max(clock.invariants.momentum_removed, momentum);
   sort_in_space(particles, box);
-  start(particles, clock);  // sums in the new order, as a run that is resumed here would
+  start(particles, clock, masses);  // sums in the new order, as a run that is resumed here would
 }
 
 void sort_in_space(std::span<Particle> particles, const Box& box) {
@@ -147,20 +155,22 @@ void sort_in_space(std::span<Particle> particles, const Box& box) {
   }
 }
 
-double remove_momentum(std::span<Particle> particles) {
+template <class Masses>
+double remove_momentum(std::span<Particle> particles, const Masses& masses) {
   Vector total{};
   for (const Particle& p : particles)
-    for (std::size_t k = 0; k < 3; ++k) total[k] += p.velocity[k];
-  const auto count = static_cast<double>(particles.size());
+    for (std::size_t k = 0; k < 3; ++k) total[k] += masses.of(p) * p.velocity[k];
+  const double mass = masses.of_all(particles.size());
   for (Particle& p : particles)
-    for (std::size_t k = 0; k < 3; ++k) p.velocity[k] -= total[k] / count;
-  const double energy = kinetic_energy(particles);
-  return energy > 0 ? std::sqrt(dot(total, total) / (count * 2 * energy)) : 0;
+    for (std::size_t k = 0; k < 3; ++k) p.velocity[k] -= total[k] / mass;
+  const double energy = kinetic_energy<Masses>(particles, masses);
+  return energy > 0 ? std::sqrt(dot(total, total) / (mass * 2 * energy)) : 0;
 }
 
-double kinetic_energy(std::span<const Particle> particles) {
+template <class Masses>
+double kinetic_energy(std::span<const Particle> particles, const Masses& masses) {
   double sum = 0;
-  for (const Particle& p : particles) sum += dot(p.velocity, p.velocity);
+  for (const Particle& p : particles) sum += masses.of(p) * dot(p.velocity, p.velocity);
   return 0.5 * sum / static_cast<double>(particles.size());
 }
 
@@ -209,5 +219,17 @@ std::int64_t next_at(std::int64_t collisions, std::size_t particles, double peri
 std::int64_t next_synchronization(std::int64_t collisions, std::size_t particles) {
   return next_at(collisions, particles, synchronization_period);
 }
+
+template void start(std::span<Particle>, Clock&, const EqualMasses&);
+template void audit(std::span<const Particle>, Clock&, double, const EqualMasses&, const Rotation&);
+template void synchronize(std::span<Particle>, Clock&, const Box&, const EqualMasses&);
+template double remove_momentum(std::span<Particle>, const EqualMasses&);
+template double kinetic_energy(std::span<const Particle>, const EqualMasses&);
+
+template void start(std::span<Particle>, Clock&, const MixedMasses&);
+template void audit(std::span<const Particle>, Clock&, double, const MixedMasses&, const Rotation&);
+template void synchronize(std::span<Particle>, Clock&, const Box&, const MixedMasses&);
+template double remove_momentum(std::span<Particle>, const MixedMasses&);
+template double kinetic_energy(std::span<const Particle>, const MixedMasses&);
 
 }  // namespace haff::engine

@@ -17,21 +17,27 @@
 #include <vector>
 
 #include "engine/clock.hpp"
+#include "engine/masses.hpp"
 #include "engine/particle.hpp"
 
 namespace haff::engine {
 
 // The clock of a gas that is about to start from these particles: scaled, its energy noted.
-void start(std::span<Particle> particles, Clock& clock);
+template <class Masses = EqualMasses>
+void start(std::span<Particle> particles, Clock& clock, const Masses& masses = {});
 
 // The tally in true units; starts it anew.
 Tally take_tally(Clock& clock);
 
 // Before a synchronization: has the kinetic energy changed by what was lost in collisions, and are
 // all invariants as they may be (soundness.hpp)? Notes the one, throws Breakdown if not the other.
-void audit(std::span<const Particle> particles, Clock& clock, double allowed_overlap);
+template <class Masses = EqualMasses>
+void audit(std::span<const Particle> particles, Clock& clock, double allowed_overlap,
+           const Masses& masses = {}, const Rotation& rotation = {});
 
-void synchronize(std::span<Particle> particles, Clock& clock, const Box& box);
+template <class Masses = EqualMasses>
+void synchronize(std::span<Particle> particles, Clock& clock, const Box& box,
+                 const Masses& masses = {});
 
 // The image of a position that lies in [0, L).
 Vector wrapped(Vector position, const Box& box);
@@ -39,11 +45,14 @@ Vector wrapped(Vector position, const Box& box);
 // Sorts along the Z curve (G. M. Morton, 1966) through 1024^3 boxes, ties in the order found.
 void sort_in_space(std::span<Particle> particles, const Box& box);
 
-// Sets the total momentum to zero; returns its size relative to sqrt(N) times the rms speed.
-double remove_momentum(std::span<Particle> particles);
+// Sets the total momentum to zero; returns its size relative to sqrt(N) times the rms speed (the
+// rms of sqrt(m) v, times sqrt of the mean mass).
+template <class Masses = EqualMasses>
+double remove_momentum(std::span<Particle> particles, const Masses& masses = {});
 
-// Kinetic energy per particle, in the units of the velocities.
-double kinetic_energy(std::span<const Particle> particles);
+// Kinetic energy of translation per particle, in the units of the velocities.
+template <class Masses = EqualMasses>
+double kinetic_energy(std::span<const Particle> particles, const Masses& masses = {});
 
 // Records to state and back, particle by particle.
 State to_state(std::span<const Particle> particles, const Clock& clock, const Box& box);

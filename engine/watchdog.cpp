@@ -21,7 +21,9 @@ bool touch(const Gas& gas, const Particle& a, const Particle& b) {
   advance(x, gas.clock.now);
   advance(y, gas.clock.now);
   const Encounter pair(x, y, gas.clock.now, gas.box);
-  return dot(pair.r, pair.r) < (1 + touching) * (1 + touching);
+  const double reach =
+      (1 + touching) * (gas.mixture ? gas.mixture->contact_distance(a.id, b.id) : 1);
+  return dot(pair.r, pair.r) < reach * reach;
 }
 
 // The two, and all that touch them directly or through others.
@@ -69,8 +71,9 @@ double expected_period(const Gas& gas) {
   const double count = static_cast<double>(gas.particles.size());
   const double density = count / gas.box.volume();
   const double temperature = 2.0 / gas.box.d * gas.clock.energy;
-  const double rate =
-      (gas.box.d == 2 ? 2 : 4) * density * std::sqrt(std::numbers::pi * temperature);
+  double rate = (gas.box.d == 2 ? 2 : 4) * density * std::sqrt(std::numbers::pi * temperature);
+  if (gas.mixture)
+    rate *= relative_rate(*gas.mixture, static_cast<std::uint32_t>(gas.particles.size()));
   return synchronization_period / rate;
 }
 

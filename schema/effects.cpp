@@ -16,9 +16,14 @@ struct Exclusion {
   std::string_view why;
 };
 
-constexpr std::array<Exclusion, 0> exclusions{};
+constexpr std::array<Exclusion, 4> exclusions{{
+    {"mixture", "roughness", "rough spheres are equal ones"},
+    {"mixture", "shuffle", "species of different mass cannot exchange velocities"},
+    {"mixture", "thermostat", "its noise is that of equal masses"},
+    {"mixture", "restitution/law=viscoelastic", "A depends on the sizes and masses of a pair"},
+}};
 
-constexpr std::array<std::string_view, 0> matter_in_equilibrium{};
+constexpr std::array<std::string_view, 1> matter_in_equilibrium{"mixture"};
 
 bool asks_for(const Json& effects, std::string_view what) {
   const std::string effect(what.substr(0, what.find('/')));

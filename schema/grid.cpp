@@ -200,6 +200,15 @@ class Examiner {
       if (one.contains("thermostat")) loses_energy(source);
       if (one.contains("shuffle")) collides_between_shuffles(source, one);
     }
+    has_both_species(source, effects);
+    for (const Placed& observable : items(source["observables"])) {
+      const auto name = observable.value.get<std::string>();
+      if (effects.value.contains("mixture") && (is_profile(name) || is_field(name)))
+        throw fault(file_, observable.where,
+                    shown(observable.value) +
+                        " is of equal spheres; with a mixture expected \"temperature\" or "
+                        "\"laguerre\"");
+    }
   }
 
   // How far each e is run, in the order of e.
@@ -318,6 +327,19 @@ class Examiner {
     constexpr double rounding = 1e-9;
     return std::abs(tau / interval - std::round(tau / interval)) <=
            rounding * std::max(1.0, tau / interval);
+  }
+
+  void has_both_species(const Source& source, const Placed& effects) const {
+    if (!effects.value.contains("mixture")) return;
+    const Placed fractions{effects.where / "mixture" / "fraction",
+                           effects.value["mixture"]["fraction"]};
+    for (const Placed& fraction : items(fractions))
+      for (const double N : source.list<double>("N"))
+        if (const double second = std::round(fraction.value.get<double>() * N);
+            second < 1 || second > N - 1)
+          throw fault(file_, fraction.where,
+                      shown(fraction.value) + " of " + text(N) +
+                          " particles leaves a species without any; expected at least one of each");
   }
 
   void fits_in_memory(const Placed& particles, double N) const {

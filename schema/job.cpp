@@ -69,7 +69,9 @@ std::string identity(const Job& job) {
 }
 
 bool cools_by_haff(const Job& job) {
-  return job.e.has_value() && !nlohmann::json::parse(job.effects).contains("thermostat");
+  const auto effects = nlohmann::json::parse(job.effects);
+  return job.e.has_value() && !effects.contains("thermostat") && !effects.contains("roughness") &&
+         !effects.contains("mixture");
 }
 
 std::string series_identity(Job job) {

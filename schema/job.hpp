@@ -78,8 +78,8 @@ Job equilibration_of(const Job& cooling);
 // what differs, and the 200 bytes it takes are nothing beside a job's samples.
 std::string identity(const Job& job);
 
-// Whether Haff's law says how it cools, so that gamma_ratio and tau_c have a meaning: a constant e
-// is what it loses energy by, and it gains none.
+// Whether Haff's law says how it cools, so that gamma_ratio and tau_c have a meaning: smooth equal
+// spheres lose energy by a constant e, and gain none.
 bool cools_by_haff(const Job& job);
 
 // What the realizations of one series have in common: the identity with seed 0.

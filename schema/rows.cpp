@@ -68,7 +68,10 @@ Sample sample(const SQLite::Statement& row) {
           .a5 = optional_real(row, "a5"),
           .a6 = optional_real(row, "a6"),
           .correlation_trace = optional_real(row, "correlation_trace"),
-          .largest_cluster = optional_real(row, "largest_cluster")};
+          .largest_cluster = optional_real(row, "largest_cluster"),
+          .rotational_temperature = optional_real(row, "rotational_temperature"),
+          .temperature_1 = optional_real(row, "temperature_1"),
+          .temperature_2 = optional_real(row, "temperature_2")};
 }
 
 CheckpointInfo checkpoint_info(const SQLite::Statement& row) {

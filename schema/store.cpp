@@ -140,11 +140,13 @@ void must_be_finite(const Lease& lease, const Sample& sample) {
   const auto finite = [](const std::optional<double>& value) {
     return !value || std::isfinite(*value);
   };
-  const bool sound =
-      std::isfinite(sample.tau) && std::isfinite(sample.time) && finite(sample.temperature) &&
-      finite(sample.gamma_ratio) && finite(sample.collision_rate) && finite(sample.pressure) &&
-      finite(sample.a2) && finite(sample.a3) && finite(sample.a4) && finite(sample.a5) &&
-      finite(sample.a6) && finite(sample.correlation_trace) && finite(sample.largest_cluster);
+  const bool sound = std::isfinite(sample.tau) && std::isfinite(sample.time) &&
+                     finite(sample.temperature) && finite(sample.gamma_ratio) &&
+                     finite(sample.collision_rate) && finite(sample.pressure) &&
+                     finite(sample.a2) && finite(sample.a3) && finite(sample.a4) &&
+                     finite(sample.a5) && finite(sample.a6) && finite(sample.correlation_trace) &&
+                     finite(sample.largest_cluster) && finite(sample.rotational_temperature) &&
+                     finite(sample.temperature_1) && finite(sample.temperature_2);
   if (!sound)
     throw Damage("job " + std::to_string(lease.job_id) + ": the sample at tau = " +
                  std::to_string(sample.tau) + " holds a value that is not finite");
@@ -169,7 +171,8 @@ void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Samp
   SQLite::Statement statement(sqlite, R"(
     INSERT INTO samples VALUES (:job_id, :tau, :time, :temperature, :gamma_ratio,
                                 :collision_rate, :pressure, :a2, :a3, :a4, :a5, :a6,
-                                :correlation_trace, :largest_cluster)
+                                :correlation_trace, :largest_cluster, :rotational_temperature,
+                                :temperature_1, :temperature_2)
     ON CONFLICT DO NOTHING)");
   for (const Sample& sample : samples) {
     must_be_finite(lease, sample);
@@ -188,6 +191,9 @@ void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Samp
     bind(statement, ":a6", sample.a6);
     bind(statement, ":correlation_trace", sample.correlation_trace);
     bind(statement, ":largest_cluster", sample.largest_cluster);
+    bind(statement, ":rotational_temperature", sample.rotational_temperature);
+    bind(statement, ":temperature_1", sample.temperature_1);
+    bind(statement, ":temperature_2", sample.temperature_2);
     if (statement.exec() == 0) must_agree(sqlite, lease, sample);
   }
 }

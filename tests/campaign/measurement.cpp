@@ -9,6 +9,7 @@
 
 #include "analysis/cooling.hpp"
 #include "analysis/moments.hpp"
+#include "campaign/model.hpp"
 #include "engine/initial.hpp"
 
 using namespace haff;
@@ -211,4 +212,37 @@ TEST_CASE("measurement: a Gaussian gas is in equilibrium, another is not") {
   CHECK_FALSE(is_equilibrated(sample, physics));
   sample.a2 = std::nullopt;
   CHECK_FALSE(is_equilibrated(sample, physics));
+}
+
+TEST_CASE("measurement: rough spheres have a temperature of rotation, no tau_c") {
+  auto physics = job(0.8);
+  physics.effects = R"({"roughness":{"beta":0.5,"q":0.4}})";
+  engine::Simulation gas(model_of(physics), engine::initial_state(0.4, physics.particles, 1));
+  const auto first = measure(gas, physics, 0, std::nullopt);
+  CHECK(*first.rotational_temperature == 0);
+  gas.run_to(engine::collisions_at(30, physics.particles));
+  const auto later = measure(gas, physics, 30, first);
+  CHECK(*later.rotational_temperature ==
+        doctest::Approx(std::ldexp(*gas.rotational_energy(), -2 * gas.exponent()) * 2 / 3));
+  CHECK(*later.rotational_temperature > 0.1 * *later.temperature);
+  CHECK_FALSE(later.temperature_1);
+  CHECK_FALSE(results({first, later}, physics).tau_c);
+
+  auto smooth = ::gas(job(0.8));
+  CHECK_FALSE(measure(smooth, job(0.8), 0, std::nullopt).rotational_temperature);
+}
+
+TEST_CASE("measurement: a mixture has the temperatures of its species, and of all") {
+  auto physics = job(1);
+  physics.effects = R"({"mixture":{"diameter_ratio":0.5,"fraction":0.3,"mass_ratio":0.1}})";
+  const auto model = model_of(physics);
+  engine::Simulation gas(model, engine::initial_state(0.4, physics.particles, 1, 3, model.effects));
+  gas.run_to(engine::collisions_at(10, physics.particles));
+  const auto sample = measure(gas, physics, 10, std::nullopt);
+  CHECK(*sample.temperature == doctest::Approx(2.0 / 3).epsilon(1e-12));
+  CHECK(0.7 * *sample.temperature_1 + 0.3 * *sample.temperature_2 ==
+        doctest::Approx(*sample.temperature).epsilon(1e-12));
+  // Of 300 particles in equilibrium, four standard errors sqrt(2/900).
+  CHECK(std::abs(*sample.temperature_2 * 1.5 - 1) < 4 * std::sqrt(2.0 / 900));
+  CHECK(std::abs(*sample.a2) < 4 * analysis::laguerre_noise(2, physics.particles));
 }

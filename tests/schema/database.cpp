@@ -43,7 +43,7 @@ TEST_CASE("a new store is marked as one") {
   Store::create(folder / "a.db");
   SQLite::Database sqlite = plain(folder / "a.db");
   CHECK(sqlite.execAndGet("PRAGMA application_id").getInt() == application_id);
-  CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 5);
+  CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 6);
   CHECK(sqlite.execAndGet("PRAGMA journal_mode").getString() == "wal");
 }
 
@@ -213,7 +213,7 @@ TEST_CASE("SQLite refuses writes through a reader's connection") {
     }
   }
   CHECK(Reader(folder / "a.db").jobs().size() == 2);
-  CHECK(reader.sqlite().execAndGet("PRAGMA user_version").getInt() == 5);
+  CHECK(reader.sqlite().execAndGet("PRAGMA user_version").getInt() == 6);
 }
 
 TEST_CASE("readers see a store that a killed writer left with its log") {

@@ -132,3 +132,53 @@ TEST_CASE("effects: part of a job's identity, not of its equilibration's") {
   CHECK(identity(plain) != identity(softened));
   CHECK(identity(equilibration_of(plain)) == identity(equilibration_of(softened)));
 }
+
+TEST_CASE("effects: roughness and mixtures, swept") {
+  CHECK(effects(R"({"roughness": {"beta": [-0.5, 0.5], "q": 0.4}})") ==
+        Texts{R"({"roughness":{"beta":-0.5,"q":0.4}})", R"({"roughness":{"beta":0.5,"q":0.4}})"});
+  CHECK(
+      effects(R"({"mixture": {"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": [0.1, 10]}})") ==
+      Texts{R"({"mixture":{"diameter_ratio":1.0,"fraction":0.5,"mass_ratio":0.1}})",
+            R"({"mixture":{"diameter_ratio":1.0,"fraction":0.5,"mass_ratio":10.0}})"});
+}
+
+TEST_CASE("effects: what is wrong with roughness or a mixture is named") {
+  CHECK(complaint(R"({"roughness": {"beta": 1.5, "q": 0.4}})") ==
+        "g.json: /effects/roughness/beta: 1.5 is not accepted; expected a tangential restitution "
+        "coefficient, from -1 (smooth) to 1 (perfectly rough), or a list of them");
+  CHECK(complaint(R"({"roughness": {"beta": 0.5}})") ==
+        "g.json: /effects/roughness: has no \"q\"; expected a reduced moment of inertia 4 I / (m "
+        "sigma^2), above 0 and at most 1, 0.4 for solid spheres, or a list of them");
+  CHECK(complaint(R"({"mixture": {"fraction": 0.5, "diameter_ratio": 2, "mass_ratio": 1}})") ==
+        "g.json: /effects/mixture/diameter_ratio: 2 is not accepted; expected the diameter of "
+        "species 2 in that of species 1, from 0.05 to 1 (species 1 is the larger), or a list of "
+        "them");
+}
+
+TEST_CASE("effects: a mixture refuses what is of equal spheres, by name") {
+  const std::string mixture =
+      R"("mixture": {"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": 0.1})";
+  CHECK(complaint("{" + mixture + R"(, "roughness": {"beta": 0.5, "q": 0.4}})") ==
+        "g.json: /effects: mixture and roughness do not go together: rough spheres are equal ones");
+  CHECK(complaint("{" + mixture + R"(, "shuffle": {"every": 1}})") ==
+        "g.json: /effects: mixture and shuffle do not go together: species of different mass "
+        "cannot exchange velocities");
+  CHECK(complaint("{" + mixture + R"(}, "observables": ["temperature", "clusters"])") ==
+        "g.json: /observables/1: \"clusters\" is of equal spheres; with a mixture expected "
+        "\"temperature\" or \"laguerre\"");
+  CHECK(complaint("{" + mixture + R"(}, "d": [3, 2])") ==
+        "g.json: /effects/mixture: is an effect for spheres alone; expected d = 3 with it");
+  CHECK(complaint(R"({"roughness": {"beta": 0, "q": 0.4}}, "d": 2)") ==
+        "g.json: /effects/roughness: is an effect for spheres alone; expected d = 3 with it");
+  CHECK(complaint(R"({"mixture": {"fraction": 1e-4, "diameter_ratio": 1, "mass_ratio": 1}})") ==
+        "g.json: /effects/mixture/fraction: 0.0001 of 1000 particles leaves a species without any; "
+        "expected at least one of each");
+}
+
+TEST_CASE("effects: a mixture equilibrates as one, rough spheres as smooth ones") {
+  Job job{.e = 0.8, .n = 0.4, .particles = 1000, .seed = 1};
+  job.effects = R"({"mixture":{"diameter_ratio":1.0,"fraction":0.5,"mass_ratio":0.1}})";
+  CHECK(equilibration_of(job).effects == job.effects);
+  job.effects = R"({"roughness":{"beta":0.5,"q":0.4}})";
+  CHECK(equilibration_of(job).effects == "{}");
+}

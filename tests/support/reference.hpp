@@ -18,19 +18,19 @@
 
 namespace haff::tests {
 
-template <class Law = engine::ConstantRestitution>
-class Reference {
+template <class Physics>
+class ReferenceOf {
  public:
-  Reference(const engine::Model& model, const engine::State& state)
-      : law_(model.restitution, model.law.parameters),
+  ReferenceOf(Physics physics, const engine::Model& model, const engine::State& state)
+      : physics_(std::move(physics)),
         box_(state),
         particles_(state.particles()),
         actions_(engine::actions_of(model, state)),
         clock_(engine::to_clock(state)) {
     engine::copy_particles(state, particles_);
-    law_.recall(state);
-    engine::start(particles_, clock_);
-    law_.scale(clock_.exponent);
+    physics_.recall(state);
+    engine::start(particles_, clock_, physics_.masses());
+    physics_.scale(clock_.exponent);
   }
 
   // The next collision.
@@ -50,8 +50,9 @@ class Reference {
           for (int image = 0; image < (box_.d == 2 ? 9 : 27); ++image) {
             const engine::Vector boxes{image % 3 - 1.0, image / 3 % 3 - 1.0,
                                        box_.d == 2 ? 0 : image / 9 - 1.0};
-            const double time = engine::HardSpheres::contact_time(
-                engine::Encounter(particles_[i], particles_[j], clock_.now, box_, boxes));
+            const double time = physics_.contact_time(
+                engine::Encounter(particles_[i], particles_[j], clock_.now, box_, boxes),
+                particles_[i], particles_[j]);
             const auto ids = std::minmax(particles_[i].id, particles_[j].id);
             if (const auto found = std::tuple(time, ids.first, ids.second); found < first) {
               first = found;
@@ -64,8 +65,7 @@ class Reference {
         continue;
       }
       clock_.now = std::max(clock_.now, std::get<0>(first));
-      engine::SmoothSpheres<Law>(law_).collide(particles_[a], particles_[b], clock_.now, box_,
-                                               clock_);
+      physics_.collide(particles_[a], particles_[b], clock_.now, box_, clock_);
       break;
     }
     if (++clock_.collisions == next_) synchronize();
@@ -74,11 +74,12 @@ class Reference {
   bool synchronized() const { return clock_.now == 0; }
   engine::State state() const {
     engine::State state = engine::to_state(particles_, clock_, box_);
-    law_.store(state);
+    physics_.store(state);
     for (const auto& action : actions_) action->store(state);
     return state;
   }
   double time() const { return clock_.time(); }
+  double rotational_energy() const { return physics_.rotation()->now; }
   std::vector<engine::Vector> velocities() const {
     std::vector<engine::Vector> all;
     for (const auto& p : particles_) all.push_back(p.velocity);
@@ -87,11 +88,13 @@ class Reference {
 
  private:
   void synchronize() {
-    engine::audit(particles_, clock_, 1e-9);  // sigma: boxes are small, periods may be long
-    law_.before_synchronization(particles_, clock_.now);
-    engine::synchronize(particles_, clock_, box_);
+    constexpr double overlap = 1e-9;  // sigma: boxes are small, periods may be long
+    engine::audit(particles_, clock_, overlap, physics_.masses(),
+                  physics_.rotation().value_or(engine::Rotation{}));
+    physics_.before_synchronization(particles_, clock_.now);
+    engine::synchronize(particles_, clock_, box_, physics_.masses());
     engine::act(actions_, particles_, clock_);
-    law_.scale(clock_.exponent);
+    physics_.scale(clock_.exponent);
     next_ = next_stop();
   }
 
@@ -102,12 +105,22 @@ class Reference {
     return next;
   }
 
-  Law law_;
+  Physics physics_;
   engine::Box box_;
   std::vector<engine::Particle> particles_;
   std::vector<std::unique_ptr<engine::Action>> actions_;
   engine::Clock clock_;
   std::int64_t next_ = next_stop();
+};
+
+// Smooth spheres.
+template <class Law = engine::ConstantRestitution>
+class Reference : public ReferenceOf<engine::SmoothSpheres<Law>> {
+ public:
+  Reference(const engine::Model& model, const engine::State& state)
+      : ReferenceOf<engine::SmoothSpheres<Law>>(
+            engine::SmoothSpheres<Law>(Law(model.restitution, model.law.parameters)), model,
+            state) {}
 };
 
 }  // namespace haff::tests

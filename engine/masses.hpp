@@ -1,0 +1,25 @@
+// What particles weigh, for sums over them: a policy, so that equal spheres multiply by nothing.
+#pragma once
+
+#include <cstddef>
+
+#include "engine/mixture.hpp"
+#include "engine/particle.hpp"
+
+namespace haff::engine {
+
+struct EqualMasses {
+  static constexpr double of(const Particle&) { return 1; }
+  static double of_all(std::size_t particles) { return static_cast<double>(particles); }
+};
+
+struct MixedMasses {
+  double of(const Particle& p) const { return mixture.mass_of(p.id); }
+  double of_all(std::size_t particles) const {
+    return mixture.first + static_cast<double>(particles - mixture.first) * mixture.mass;
+  }
+
+  Mixture mixture;
+};
+
+}  // namespace haff::engine

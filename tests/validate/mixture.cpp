@@ -1,0 +1,78 @@
+// Cooling mixtures against V. Garzo and J. Dufty, Phys. Rev. E 60, 5706 (1999): species of
+// different mass and size cool with different temperatures, whose ratio stays.
+#include "analysis/mixture.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "engine/initial.hpp"
+#include "engine/mixture.hpp"
+#include "engine/simulation.hpp"
+
+using namespace haff;
+
+namespace {
+
+constexpr std::uint32_t particles = 20'000;
+
+engine::Model model_of(const analysis::BinaryMixture& gas) {
+  return {.restitution = gas.e,
+          .effects = {{"mixture",
+                       {{"fraction", gas.fraction},
+                        {"diameter_ratio", gas.diameter_ratio},
+                        {"mass_ratio", gas.mass_ratio}}}}};
+}
+
+engine::State equilibrated(const analysis::BinaryMixture& gas) {
+  engine::Model elastic = model_of(gas);
+  elastic.restitution = 1;
+  engine::Simulation melting(elastic,
+                             engine::initial_state(gas.n, particles, 1, 3, elastic.effects));
+  melting.run_to(engine::collisions_at(20, particles));
+  return engine::restarted(melting.state());
+}
+
+// T_1 / T_2.
+double measured_ratio(const engine::Simulation& gas, const engine::Mixture& mixture) {
+  double sum[2] = {}, count[2] = {};
+  const auto ids = gas.ids();
+  const auto velocities = gas.velocities();
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const int species = mixture.is_second(ids[i]) ? 1 : 0;
+    for (const double v : velocities[i]) sum[species] += mixture.mass_of(ids[i]) * v * v;
+    ++count[species];
+  }
+  return sum[0] / count[0] / (sum[1] / count[1]);
+}
+
+}  // namespace
+
+TEST_CASE("cooling mixtures have the ratio of temperatures of Garzo and Dufty") {
+  // With 10^4 of each a ratio is known to sqrt(4 / (3 10^4)) = 1.2 % at one time, the mean of ten
+  // to less; measured are 0.3, 1.2, 0.0 and 0.8 %. Theory takes velocities for Gaussian, and
+  // neglects their correlations: S. R. Dahl et al. (cond-mat/0205413) find it good at low density
+  // and weak dissipation.
+  constexpr double tolerance = 0.04;
+  for (const analysis::BinaryMixture& gas :
+       {analysis::BinaryMixture{.e = 0.95, .n = 0.05, .diameter_ratio = 1, .mass_ratio = 0.1},
+        {.e = 0.8, .n = 0.05, .diameter_ratio = 1, .mass_ratio = 0.1},
+        {.e = 0.8, .n = 0.05, .diameter_ratio = 1, .mass_ratio = 10},
+        {.e = 0.8, .n = 0.1, .diameter_ratio = 0.5, .mass_ratio = 0.125}}) {
+    CAPTURE(gas.e);
+    CAPTURE(gas.diameter_ratio);
+    CAPTURE(gas.mass_ratio);
+    const engine::Model model = model_of(gas);
+    const auto mixture = engine::mixture_of(model.effects.at("mixture"), particles);
+    engine::Simulation cooling(model, equilibrated(gas));
+    double ratio = 0;
+    for (double tau = 21; tau <= 30; ++tau) {
+      cooling.run_to(engine::collisions_at(tau, particles));
+      ratio += measured_ratio(cooling, mixture) / 10;
+    }
+    const double theory = analysis::temperature_ratio(gas);
+    MESSAGE("e = ", gas.e, ", diameters 1:", gas.diameter_ratio, ", masses 1:", gas.mass_ratio,
+            ": T_1/T_2 = ", ratio, ", theory ", theory);
+    CHECK(std::abs(ratio / theory - 1) < tolerance);
+  }
+}

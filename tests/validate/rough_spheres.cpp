@@ -1,0 +1,74 @@
+// Rough spheres against M. Huthmann and A. Zippelius, Phys. Rev. E 56, R6275 (1997): the ratio of
+// rotational to translational temperature that a cooling gas comes to, and the way to it.
+#include "analysis/rough_spheres.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "analysis/moments.hpp"
+#include "engine/initial.hpp"
+#include "engine/simulation.hpp"
+
+using namespace haff;
+
+namespace {
+
+constexpr std::uint32_t particles = 20'000;
+
+engine::Simulation rough_gas(double n, double e, const analysis::Roughness& roughness) {
+  engine::Simulation melting({.restitution = 1}, engine::initial_state(n, particles, 1));
+  melting.run_to(engine::collisions_at(20, particles));
+  return {{.restitution = e,
+           .effects = {{"roughness", {{"beta", roughness.beta}, {"q", roughness.q}}}}},
+          engine::restarted(melting.state())};
+}
+
+analysis::RoughTemperatures measured(const engine::Simulation& gas) {
+  return {.translation =
+              std::ldexp(analysis::moments(gas.velocities()).temperature, -2 * gas.exponent()),
+          .rotation = std::ldexp(*gas.rotational_energy() * 2 / 3, -2 * gas.exponent())};
+}
+
+}  // namespace
+
+TEST_CASE("rough spheres come to the ratio of temperatures of Huthmann and Zippelius") {
+  // A ratio is known to sqrt(4 / (3 N)) = 0.8 % at one time, the mean of ten a collision apart to
+  // some 0.5 %. Theory takes velocities and spins for Gaussian; that they are not counts "for
+  // medium and small roughness" (A. Santos, G. M. Kremer and M. dos Santos, arXiv:1009.6180), as
+  // measured by 8 % at e = 0.8, beta = 0, and by less than 3 % for rougher spheres. Smaller beta
+  // come to their ratio only after many more collisions.
+  for (const double e : {0.8, 0.95})
+    for (const double beta : {0.0, 0.5, 0.9}) {
+      const double tolerance = beta < 0.5 ? 0.12 : 0.05;
+      CAPTURE(e);
+      CAPTURE(beta);
+      auto gas = rough_gas(0.05, e, {.beta = beta, .q = 0.4});
+      double ratio = 0;
+      for (double tau = 31; tau <= 40; ++tau) {
+        gas.run_to(engine::collisions_at(tau, particles));
+        const auto now = measured(gas);
+        ratio += now.rotation / now.translation / 10;
+      }
+      const double theory = analysis::rough_temperature_ratio(e, {.beta = beta, .q = 0.4});
+      MESSAGE("e = ", e, ", beta = ", beta, ": R/T = ", ratio, ", theory ", theory);
+      CHECK(std::abs(ratio / theory - 1) < tolerance);
+    }
+}
+
+TEST_CASE("rough spheres: both temperatures follow their equations") {
+  // A temperature of 20 000 particles is known to sqrt(2 / (3 N)) = 0.6 %; T is measured within 1 %
+  // of theory, R, which the missing correlation of velocities and spins concerns more, within 3 %.
+  const analysis::Roughness roughness{.beta = 0.5, .q = 0.4};
+  auto gas = rough_gas(0.05, 0.9, roughness);
+  for (const double tau : {0.5, 1.0, 2.0, 5.0}) {
+    gas.run_to(engine::collisions_at(tau, particles));
+    const auto now = measured(gas);
+    const auto theory =
+        analysis::rough_temperatures(tau, 0.9, roughness, {.translation = 2.0 / 3, .rotation = 0});
+    MESSAGE("tau = ", tau, ": T ", now.translation, " theory ", theory.translation, ", R ",
+            now.rotation, " theory ", theory.rotation);
+    CHECK(now.translation == doctest::Approx(theory.translation).epsilon(0.02));
+    CHECK(now.rotation == doctest::Approx(theory.rotation).epsilon(0.05));
+  }
+}
