@@ -3,8 +3,10 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "schema/embedded.hpp"
@@ -104,13 +106,29 @@ void prepare_to_read(SQLite::Database& sqlite, const std::filesystem::path& path
   sqlite.exec("PRAGMA query_only = ON");
 }
 
+// The journal's mode after asking for the write-ahead log. Two processes that turn the same new
+// file each hold the read lock the other must wait for: SQLite refuses one of them at once,
+// whatever its timeout, since waiting inside would never end. So the loser tries again from the
+// outside.
+std::string write_ahead(SQLite::Database& sqlite) {
+  constexpr std::chrono::milliseconds pause{5};
+  const auto until = std::chrono::steady_clock::now() + busy_timeout;
+  while (true) try {
+      return sqlite.execAndGet("PRAGMA journal_mode = WAL").getString();
+    } catch (const SQLite::Exception& error) {
+      const bool busy = (error.getErrorCode() & 0xff) == SQLITE_BUSY;
+      if (!busy || std::chrono::steady_clock::now() > until) throw;
+      std::this_thread::sleep_for(pause);
+    }
+}
+
 void prepare_to_write(SQLite::Database& sqlite, const std::filesystem::path& path) {
   if (sqlite3_db_readonly(sqlite.getHandle(), "main") == 1)
     throw StoreError(path.string() + ": may not be written; check the permissions of the file");
   // Somebody else's file must not change, not even its journal.
   if (!empty(sqlite)) must_be_store(sqlite, path);
 
-  const auto journal = sqlite.execAndGet("PRAGMA journal_mode = WAL").getString();
+  const auto journal = write_ahead(sqlite);
   if (journal != "wal" && path != in_memory)
     throw StoreError(path.string() +
                      ": this file system does not support SQLite's write-ahead log; "
