@@ -197,8 +197,9 @@ GridError explanation(const Json& document, const std::string& file, const Point
 
   if (const auto wrong = wrong_keys(value, *rule, file, where)) return *wrong;
 
+  // Of a single word its description says more.
   const auto words = enumerated(*rule);
-  if (value.is_string() && !words.empty())
+  if (value.is_string() && words.size() > 1)
     return fault(file, where,
                  shown(value) + " is not accepted; " + suggestion(value.get<std::string>(), words));
 
