@@ -94,6 +94,7 @@ std::optional<Statistics> statistics_of(const Quantity& quantity, const PilotSer
   if (values.size() == 1) {
     if (const auto blocks = error_within(quantity, series.job, series.pilots.front())) {
       result.error = blocks->standard_error;
+      result.deviation = blocks->standard_error;
       result.correlation_time = blocks->correlation_time;
     }
     return result;
@@ -264,7 +265,9 @@ void assess_gas(const std::vector<const PilotSeries*>& gas, Assessment& assessme
       add_condition_shifts(condition, quantity, gas, assessment.shifts);
     add_sampling_shifts(quantity, quietest(gas), assessment.shifts);
   }
-  add_mesh_shift(quietest(gas), assessment.shifts);
+  auto meshed = gas;
+  std::erase_if(meshed, [](const PilotSeries* series) { return !series->pilots.front().mesh; });
+  if (!meshed.empty()) add_mesh_shift(quietest(meshed), assessment.shifts);
 }
 
 }  // namespace
@@ -329,7 +332,7 @@ std::optional<Offer> cheapest(const Assessment& assessment, const std::string& g
                               const Quantity& quantity, double target) {
   std::optional<Offer> best;
   for (const Statistics& each : assessment.statistics) {
-    if (each.quantity != quantity || gas_key(each.job) != gas || each.realizations < 2) continue;
+    if (each.quantity != quantity || gas_key(each.job) != gas) continue;
     // A shift that is not seen may still be as large as its error.
     double bias = finite_size_error(assessment, each);
     if (const Shift* shift = finite_size_shift(assessment, each))

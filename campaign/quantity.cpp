@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "analysis/accuracy.hpp"
 #include "analysis/cooling.hpp"
 #include "analysis/statistics.hpp"
 
@@ -15,8 +16,9 @@ namespace {
 // tau of a sample and ends of a window are both rounded. [tau]
 constexpr double rounding = 1e-9;
 
-// Blocks of fewer samples than this show no correlation time.
-constexpr std::size_t fewest_samples = 32;
+// Blocks of so many correlation times, as seen with these very blocks, leave an error at most a
+// tenth too small.
+constexpr double long_enough = 8;
 
 using Samples = std::vector<schema::Sample>;
 
@@ -47,13 +49,13 @@ bool is_laguerre(Measure measure) {
 
 std::vector<double> laguerre_series(const Quantity& quantity, const Samples& samples) {
   std::vector<double> values;
-  for (const schema::Sample& sample : within(samples, quantity.from, quantity.to))
+  for (const schema::Sample& sample : samples)
     if (const auto value = laguerre(quantity.measure, sample)) values.push_back(*value);
   return values;
 }
 
 std::optional<double> mean_laguerre(const Quantity& quantity, const Samples& samples) {
-  const auto values = laguerre_series(quantity, samples);
+  const auto values = laguerre_series(quantity, within(samples, quantity.from, quantity.to));
   if (values.empty() || !reaches(samples, quantity.to)) return std::nullopt;
   return analysis::estimate(values).mean;
 }
@@ -184,11 +186,18 @@ std::optional<double> value_at(const schema::Profile& profile, double x) {
 std::optional<OneRunError> error_within(const Quantity& quantity, const schema::Job& job,
                                         const Pilot& pilot) {
   if (!is_laguerre(quantity.measure)) return std::nullopt;
-  const auto values = laguerre_series(quantity, pilot.samples);
-  if (values.size() < fewest_samples) return std::nullopt;
+  const auto values =
+      laguerre_series(quantity, within(pilot.samples, quantity.from, pilot.tau_max));
+  if (values.size() < 2) return std::nullopt;
   const auto blocks = analysis::block_estimate(values);
-  return OneRunError{.standard_error = blocks.estimate.standard_error,
-                     .correlation_time = blocks.correlation_time * job.sample_every};
+  if (static_cast<double>(blocks.block_length) < long_enough * blocks.correlation_time)
+    return std::nullopt;
+  const double correlation_time = blocks.correlation_time * job.sample_every;
+  const double times = (quantity.to - quantity.from + job.sample_every) / correlation_time;
+  const double variance = std::pow(analysis::standard_deviation(analysis::estimate(values)), 2);
+  return OneRunError{
+      .standard_error = std::sqrt(2 * variance / times * (1 - (1 - std::exp(-times)) / times)),
+      .correlation_time = correlation_time};
 }
 
 double cpu_seconds(const Quantity& quantity, const Pilot& pilot) {

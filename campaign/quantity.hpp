@@ -35,9 +35,12 @@ std::optional<double> value_of(const Quantity& quantity, const schema::Job& job,
 // A profile at x, on the straight line between the points beside it; nothing beyond its ends.
 std::optional<double> value_at(const schema::Profile& profile, double x);
 
-// The error of that value from this realization alone: samples of the window averaged in blocks
-// longer than their correlation time. Nothing where blocks make no sense, or with fewer than 32
-// samples, which show no correlation time.
+// The error of that value from this realization alone. A window of some correlation times cannot
+// tell its own error: blocks over all the run from the window on tell the correlation time t, and
+//   error^2 = 2 s^2 t / W [1 - (1 - exp(-W/t)) t/W],   W the window, s the samples' deviation,
+// that of correlations which fall exponentially, is the window's. A drift after the window makes it
+// larger. Nothing where blocks make no sense, or the run is too short for eight of them, each of
+// eight correlation times: of a2 in tau some 120.
 struct OneRunError {
   double standard_error = 0;
   double correlation_time = 0;  // [tau]

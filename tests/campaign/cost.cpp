@@ -105,19 +105,67 @@ TEST_CASE("cost: what the store says nothing of is named") {
   CHECK(std::ranges::count(unknown, Cause::mesh) == 1);
 }
 
-TEST_CASE("cost: one realization has its error from blocks, with their correlation time") {
-  schema::Job job{.e = 0.9, .n = 0.4, .particles = 1000, .sample_every = 0.25};
-  Pilot pilot{.seed = 1, .tau_max = 15};
-  Gaussian gaussian(3);
-  for (int k = 0; k <= 60; ++k)
-    pilot.samples.push_back({.tau = 0.25 * k, .a2 = -0.03 + 0.01 * gaussian()});
-  const auto error = error_within(a2, job, pilot);
-  REQUIRE(error);
-  CHECK(error->standard_error == Approx(0.01 / std::sqrt(41.0)).epsilon(0.5));
-  CHECK(error->correlation_time == Approx(0.5 * 0.25).epsilon(0.5));
-  job.sample_every = 1;
-  std::erase_if(pilot.samples, [](const schema::Sample& s) { return s.tau != std::round(s.tau); });
-  CHECK_FALSE(error_within(a2, job, pilot));  // eleven samples show no correlation time
+namespace {
+
+// One run whose a2 forgets itself as exp(-tau / 1.9), as near the Gaussian: integrated correlation
+// time 1.94 for a sample every 1.
+PilotSeries correlated(double tau_max, double sample_every, std::uint64_t seed) {
+  const double memory = std::exp(-sample_every / 1.9);
+  PilotSeries series{.job = {.e = 0.9,
+                             .n = 0.4,
+                             .particles = 1000,
+                             .sample_every = sample_every,
+                             .observables = {"laguerre"}},
+                     .pilots = {{.seed = 1, .tau_max = tau_max, .cpu_seconds = 1}}};
+  Gaussian gaussian(seed);
+  double a2_now = gaussian();
+  for (double tau = 0; tau <= tau_max; tau += sample_every) {
+    series.pilots[0].samples.push_back({.tau = tau, .a2 = -0.03 + 0.01 * a2_now});
+    a2_now = memory * a2_now + std::sqrt(1 - memory * memory) * gaussian();
+  }
+  return series;
+}
+
+}  // namespace
+
+TEST_CASE("cost: the error of a single run is the scatter of its window's mean") {
+  // The scatter of 400 values is known to 3.5 %; blocks of eight correlation times may show a tenth
+  // too little.
+  for (const double sample_every : {0.25, 1.0}) {
+    double squares = 0, claimed = 0;
+    std::size_t runs = 0;
+    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+      const PilotSeries series = correlated(340, sample_every, seed);
+      const auto error = error_within(a2, series.job, series.pilots[0]);
+      if (!error) continue;
+      ++runs;
+      squares += std::pow(value_of(a2, series.job, series.pilots[0]).value() + 0.03, 2);
+      claimed += std::pow(error->standard_error, 2);
+    }
+    CAPTURE(sample_every);
+    CHECK(runs > 300);
+    CHECK(std::sqrt(claimed / squares) == Approx(1).epsilon(0.15));
+  }
+}
+
+TEST_CASE("cost: a single run has an error with its correlation time, and advice") {
+  const PilotSeries series = correlated(340, 1, 1);
+  const Assessment assessment = assess({series});
+  const Statistics& single = of_size(assessment, 1000);
+  CHECK(single.realizations == 1);
+  REQUIRE(single.correlation_time);
+  CHECK(*single.correlation_time == Approx(1.94).epsilon(0.4));
+  const auto offer = cheapest(assessment, gas_key(series.job), a2, single.error / 10);
+  REQUIRE(offer);
+  CHECK(offer->realizations == Approx(100).epsilon(0.02));
+}
+
+TEST_CASE("cost: a run too short to show its correlation time has no error") {
+  for (const double sample_every : {0.25, 1.0})
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      const PilotSeries series = correlated(20, sample_every, seed);
+      CHECK_FALSE(error_within(a2, series.job, series.pilots[0]));
+    }
 }
 
 TEST_CASE("cost: what wider cells do to a correlation is the difference of the same states") {
