@@ -73,6 +73,13 @@ std::vector<double> values_of(const Quantity& quantity, const PilotSeries& serie
   return values;
 }
 
+// Runs that ended before their tau_c. Those that did not are the early ones, and their mean is no
+// tau_c of the gas.
+std::size_t unfinished(const Quantity& quantity, const PilotSeries& series) {
+  if (quantity.measure != Measure::tau_c) return 0;
+  return series.pilots.size() - values_of(quantity, series).size();
+}
+
 double mean_cpu_seconds(const Quantity& quantity, const PilotSeries& series) {
   double sum = 0;
   for (const Pilot& pilot : series.pilots) sum += cpu_seconds(quantity, pilot);
@@ -90,7 +97,8 @@ std::optional<Statistics> statistics_of(const Quantity& quantity, const PilotSer
                     .error = estimate.standard_error,
                     .half_interval = none,
                     .deviation = none,
-                    .cpu_seconds = mean_cpu_seconds(quantity, series)};
+                    .cpu_seconds = mean_cpu_seconds(quantity, series),
+                    .unfinished = unfinished(quantity, series)};
   if (values.size() == 1) {
     if (const auto blocks = error_within(quantity, series.job, series.pilots.front())) {
       result.error = blocks->standard_error;
@@ -160,11 +168,11 @@ void add_condition_shifts(const Condition& condition, const Quantity& quantity,
   for (const Alternatives& group : alternatives(condition, gas)) {
     const PilotSeries& best = *group.rbegin()->second;
     const auto reference = values_of(quantity, best);
-    if (reference.size() < 2) continue;
+    if (reference.size() < 2 || unfinished(quantity, best) > 0) continue;
     const Estimate better = analysis::estimate(reference);
     for (const auto& [goodness, series] : group) {
       const auto values = values_of(quantity, *series);
-      if (series == &best || values.size() < 2) continue;
+      if (series == &best || values.size() < 2 || unfinished(quantity, *series) > 0) continue;
       const Estimate here = analysis::estimate(values);
       shifts.push_back({.quantity = quantity,
                         .job = series->job,
@@ -332,7 +340,7 @@ std::optional<Offer> cheapest(const Assessment& assessment, const std::string& g
                               const Quantity& quantity, double target) {
   std::optional<Offer> best;
   for (const Statistics& each : assessment.statistics) {
-    if (each.quantity != quantity || gas_key(each.job) != gas) continue;
+    if (each.quantity != quantity || gas_key(each.job) != gas || each.unfinished > 0) continue;
     // A shift that is not seen may still be as large as its error.
     double bias = finite_size_error(assessment, each);
     if (const Shift* shift = finite_size_shift(assessment, each))

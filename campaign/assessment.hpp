@@ -17,9 +17,10 @@ struct Statistics {
   std::size_t realizations = 0;
   double mean = 0;
   double error = 0;  // standard error; of one realization from blocks of samples, NaN if none
-  double half_interval = 0;  // of 95 %, Student's; NaN for one realization
-  double deviation = 0;      // of one realization; of a single one by its blocks, or NaN
-  double cpu_seconds = 0;    // of one realization, as far as the quantity needs it
+  double half_interval = 0;    // of 95 %, Student's; NaN for one realization
+  double deviation = 0;        // of one realization; of a single one by its blocks, or NaN
+  double cpu_seconds = 0;      // of one realization, as far as the quantity needs it
+  std::size_t unfinished = 0;  // runs that ended before their tau_c: the mean is of the early ones
   std::optional<double> correlation_time = {};  // [tau], where the error comes from blocks
   std::vector<analysis::GroupScatter> scatter = {};
   std::optional<analysis::Slope> slope = {};  // of scatter; -1/2 for independent realizations
@@ -66,7 +67,8 @@ struct Offer {
   double cpu_seconds = 0;
   double finite_size = 0;  // part of the error
 };
-// `gas` names one, by its key. Nothing if no size of it has an error, or each is too small.
+// `gas` names one, by its key. Nothing if no size of it has an error (and a tau_c in each run, if
+// that is asked for), or each is too small.
 std::optional<Offer> cheapest(const Assessment& assessment, const std::string& gas,
                               const Quantity& quantity, double target);
 

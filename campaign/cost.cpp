@@ -66,6 +66,7 @@ void print_statistics(const Assessment& assessment, std::ostream& report) {
       rest = fmt::format("blocks over tau, correlation time {:.2g}", *each.correlation_time);
     else if (each.realizations == 1)
       rest = "one run: no error";
+    if (each.unfinished > 0) rest = fmt::format("too early: {} runs ended before", each.unfinished);
     if (each.job.equilibrate != schema::Job{}.equilibrate)
       rest += fmt::format("{}equilibrate {:g}", rest.empty() ? "" : ", ", each.job.equilibrate);
     if (each.job.effects != schema::Job{}.effects)

@@ -88,7 +88,8 @@ std::string plain_line(const std::vector<std::optional<ProgressReport>>& workers
     running += fmt::format("{}job {} tau {:.1f}/{:g}", running.empty() ? "" : ", ", worker->job_id,
                            worker->tau, worker->tau_max);
   }
-  return fmt::format("{}, {}{}{}", totals_text(totals), rate_text(rate),
+  // A job that has just begun has no rate.
+  return fmt::format("{}{}{}{}", totals_text(totals), rate > 0 ? ", " + rate_text(rate) : "",
                      running.empty() ? "" : "; ", running);
 }
 

@@ -184,6 +184,23 @@ TEST_CASE("cost: what wider cells do to a correlation is the difference of the s
   CHECK(shift->error < 1e-12);
 }
 
+TEST_CASE("cost: where runs end before their tau_c the mean of the others is no measure") {
+  auto series = two_sizes();
+  for (PilotSeries& each : series)
+    for (std::size_t k = 0; k < each.pilots.size(); ++k)
+      each.pilots[k].tau_c = 130 + static_cast<double>(k % 7);
+  const Quantity tau_c{.measure = Measure::tau_c};
+  const std::string key = gas_key(series[0].job);
+  CHECK(cheapest(assess(series), key, tau_c, 1));
+  for (PilotSeries& each : series) each.pilots[3].tau_c.reset();
+  const Assessment assessment = assess(series);
+  CHECK_FALSE(cheapest(assessment, key, tau_c, 1));
+  CHECK(std::ranges::none_of(assessment.shifts,
+                             [&](const Shift& shift) { return shift.quantity == tau_c; }));
+  CHECK(std::ranges::any_of(assessment.statistics,
+                            [](const Statistics& each) { return each.unfinished == 1; }));
+}
+
 TEST_CASE("cost: writes a table, a CSV of whole rows, and pictures") {
   const TemporaryFolder folder;
   schema::Store store = schema::Store::create(":memory:");

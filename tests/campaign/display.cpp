@@ -31,4 +31,8 @@ TEST_CASE("display: one plain line says the same") {
   CHECK(plain_line(workers, totals) ==
         " 43.2 %  5 of 12 jobs done, 1 failed, 3m 20s left,  1.25 M collisions/s; "
         "job 7 tau 45.0/90");
+  const std::vector<std::optional<ProgressReport>> begun{
+      ProgressReport{8, "cooling e=0.8 n=0.4 N=500 seed 2", 0, 90, 0}};
+  CHECK(plain_line(begun, totals) ==
+        " 43.2 %  5 of 12 jobs done, 1 failed, 3m 20s left; job 8 tau 0.0/90");
 }
