@@ -62,15 +62,14 @@ bool Calendar::open_next_window() {
       slot_ += fine_slots;
       continue;
     }
+    // Their events are all over memory: fetched all before the first is needed, they take a third
+    // of the time.
+    opened_.clear();
     std::uint32_t count = opened.count;
     for (std::uint32_t chunk = opened.chunk; chunk != none; count = 15) {
       for (std::uint32_t k = 0; k < count; ++k) {
-        const std::uint32_t particle = chunks_[chunk].particle[k];
-        const double time = events_[particle].time;
-        const double slots = time * slots_per_time_;
-        if (slots >= static_cast<double>(slot_) && slots < static_cast<double>(slot_ + fine_slots))
-          add_to_slot(static_cast<std::uint32_t>(static_cast<std::uint64_t>(slots) % fine_slots),
-                      time, particle);
+        __builtin_prefetch(&events_[chunks_[chunk].particle[k]], 0, 2);
+        opened_.push_back(chunks_[chunk].particle[k]);
       }
       const std::uint32_t next_chunk = chunks_[chunk].next;
       chunks_[chunk].next = free_chunk_;
@@ -78,6 +77,13 @@ bool Calendar::open_next_window() {
       chunk = next_chunk;
     }
     opened = {};
+    for (const std::uint32_t particle : opened_) {
+      const double time = events_[particle].time;
+      const double slots = time * slots_per_time_;
+      if (slots >= static_cast<double>(slot_) && slots < static_cast<double>(slot_ + fine_slots))
+        add_to_slot(static_cast<std::uint32_t>(static_cast<std::uint64_t>(slots) % fine_slots),
+                    time, particle);
+    }
     return true;
   }
 }

@@ -49,14 +49,12 @@ class Calendar {
   template <class Rank>
   std::uint32_t next(Rank&& rank);
 
-  // The slot being worked off, and look(particle) for each entry of a coming one. Nothing is
-  // seen across the end of the window.
+  // The slot being worked off, and whose entries are in a coming one. Nothing is seen across the
+  // end of the window.
   std::uint64_t slot() const { return slot_; }
-  template <class Look>
-  [[gnu::always_inline]] void look_into(std::uint64_t slot, Look&& look) const {
-    if (slot / fine_slots != slot_ / fine_slots) return;
-    for (std::uint32_t node = heads_[slot % fine_slots]; node != none; node = nodes_[node].next)
-      look(nodes_[node].particle);
+  auto coming_in(std::uint64_t slot) const {
+    const bool known = slot / fine_slots == slot_ / fine_slots;
+    return Coming{*this, known ? heads_[slot % fine_slots] : none};
   }
 
   std::size_t memory() const;
@@ -74,6 +72,22 @@ class Calendar {
     double time;
     std::uint32_t particle;
     std::uint32_t next;
+  };
+  // The particles in a list of nodes.
+  struct Coming {
+    struct Iterator {
+      const Node* nodes;
+      std::uint32_t node;
+
+      std::uint32_t operator*() const { return nodes[node].particle; }
+      void operator++() { node = nodes[node].next; }
+      bool operator!=(const Iterator& other) const { return node != other.node; }
+    };
+    Iterator begin() const { return {calendar.nodes_.data(), first}; }
+    Iterator end() const { return {nullptr, none}; }
+
+    const Calendar& calendar;
+    std::uint32_t first;
   };
   // A window's list, in cache lines of 15 particles; `next` is the chunk filled before.
   struct alignas(64) Chunk {
@@ -107,6 +121,7 @@ class Calendar {
   std::vector<Window> windows_;
   HugeVector<Chunk> chunks_;
   std::uint32_t free_chunk_ = none;
+  std::vector<std::uint32_t> opened_;  // particles of a window that is being opened
   std::vector<std::uint32_t> beyond_;  // events after the last window
 };
 

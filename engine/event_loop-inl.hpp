@@ -22,7 +22,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-// `prefetching`: fetch into cache what coming events will touch. Pays beyond some 30 000 particles.
+// `prefetching`: fetch into cache what coming events will touch. Pays beyond some 50 000 particles.
 template <class Search, class Physics, bool prefetching = false>
 class EventLoop {
  public:
@@ -126,20 +126,22 @@ class EventLoop {
     gas_.calendar.schedule(p);
   }
 
-  // What the events of the coming slots need, in three steps, each of which needs the one before
-  // to have arrived: the particle and its event; its partner, and the bricks around it; the
-  // particles in those. Into the second-level cache, which takes lines twice as fast as the first.
+  // What the events of the coming slots need, in four steps, each of which needs the one before to
+  // have arrived: the particle and its event; its partner, and the bricks around it; the particles
+  // in those, and the bricks around the partner; the particles in those. All but the particles into
+  // the second-level cache.
+  // (Plain loops: GCC deletes the call of a function, or a lambda, that does nothing but prefetch.)
   void look_ahead() {
     const std::uint64_t slot = gas_.calendar.slot();
     // Every slot once, though empty ones are jumped over; not more than the steps reach.
-    looked_at_ = std::max(looked_at_, slot - std::min<std::uint64_t>(slot, 3 * stride));
+    looked_at_ = std::max(looked_at_, slot - std::min<std::uint64_t>(slot, 4 * stride));
     while (looked_at_ < slot) {
       ++looked_at_;
-      gas_.calendar.look_into(looked_at_ + 3 * stride, [&](std::uint32_t p) {
+      for (const std::uint32_t p : gas_.calendar.coming_in(looked_at_ + 4 * stride)) {
         __builtin_prefetch(gas_.particles.data() + p, 1, 2);
         __builtin_prefetch(&gas_.calendar[p], 1, 2);
-      });
-      gas_.calendar.look_into(looked_at_ + 2 * stride, [&](std::uint32_t p) {
+      }
+      for (const std::uint32_t p : gas_.calendar.coming_in(looked_at_ + 3 * stride)) {
         const Event& event = gas_.calendar[p];
         if (event.face == Event::contact) {
           __builtin_prefetch(gas_.particles.data() + event.partner, 1, 2);
@@ -148,14 +150,23 @@ class EventLoop {
         } else {
           search_.prefetch_bricks_beyond(event.cell, event.face);
         }
-      });
-      gas_.calendar.look_into(looked_at_ + stride, [&](std::uint32_t p) {
+      }
+      for (const std::uint32_t p : gas_.calendar.coming_in(looked_at_ + 2 * stride)) {
         const Event& event = gas_.calendar[p];
-        if (event.face == Event::contact)
-          search_.prefetch_particles_around(event.cell, gas_.calendar[event.partner].cell);
-        else
+        if (event.face == Event::contact) {
+          search_.prefetch_particles_around(event.cell);
+          const Cell partner = gas_.calendar[event.partner].cell;
+          if (partner != event.cell) search_.prefetch_bricks_around(partner);
+        } else {
           search_.prefetch_particles_beyond(event.cell, event.face);
-      });
+        }
+      }
+      if (!huge_) continue;
+      for (const std::uint32_t p : gas_.calendar.coming_in(looked_at_ + stride)) {
+        const Event& event = gas_.calendar[p];
+        if (event.face == Event::contact && gas_.calendar[event.partner].cell != event.cell)
+          search_.prefetch_particles_around(gas_.calendar[event.partner].cell);
+      }
     }
   }
 
@@ -168,11 +179,14 @@ class EventLoop {
     return 1 + (std::min(a, b) << 32 | std::max(a, b));
   }
 
-  static constexpr std::uint32_t stride = 4;  // slots between two steps of look_ahead()
+  static constexpr std::uint32_t stride = 2;  // slots between two steps of look_ahead()
 
   Gas& gas_;
   Physics& physics_;
   std::uint64_t looked_at_ = 0;
+  // Beyond the third-level cache. Below, most of what is near the partner is there anyway, and the
+  // fourth step costs more than it gains.
+  const bool huge_ = gas_.particles.size() > 200000;
   Search search_;
   double now_;
   std::int64_t collisions_;

@@ -61,16 +61,18 @@ class SimdSearch {
   HWY_INLINE void prefetch_bricks_around(Cell cell) const {
     prefetch_bricks(gas_.bricks.around<dimension>(cell));
   }
+  // Of one that is about to leave a cell through a face: it will look beyond that of the next.
   HWY_INLINE void prefetch_bricks_beyond(Cell cell, Face face) const {
-    prefetch_bricks(gas_.bricks.beyond<dimension>(cell, face));
+    const Cell next = gas_.bricks.across(cell, face);
+    prefetch_bricks(gas_.bricks.beyond<dimension>(next, face));
+    __builtin_prefetch(&gas_.bricks.line(gas_.bricks.brick_of(next)), 1, 2);
     __builtin_prefetch(&gas_.bricks.line(gas_.bricks.brick_of(cell)), 1, 2);
   }
-  HWY_INLINE void prefetch_particles_around(Cell cell, Cell partner) {
+  HWY_INLINE void prefetch_particles_around(Cell cell) {
     prefetch_particles(gas_.bricks.around<dimension>(cell));
-    if (partner != cell) prefetch_bricks(gas_.bricks.around<dimension>(partner));
   }
   HWY_INLINE void prefetch_particles_beyond(Cell cell, Face face) {
-    prefetch_particles(gas_.bricks.beyond<dimension>(cell, face));
+    prefetch_particles(gas_.bricks.beyond<dimension>(gas_.bricks.across(cell, face), face));
   }
 
   // Bricks::exit() for all axes at once.
@@ -115,9 +117,10 @@ class SimdSearch {
   }
   template <std::size_t bricks>
   HWY_INLINE void prefetch_particles(const Bricks::Wanted<bricks>& wanted) {
+    // They are needed within a few events: into the first-level cache.
     const std::size_t count = gather(0, wanted, list_);
     for (std::size_t k = 0; k < count; ++k)
-      __builtin_prefetch(gas_.particles.data() + list_[k], 0, 2);
+      __builtin_prefetch(gas_.particles.data() + list_[k], 0, 3);
   }
 
   using Slots = hn::CappedTag<std::uint32_t, 8>;

@@ -99,7 +99,7 @@ class PlainSearch {
   }
   void prefetch_bricks_around(Cell) const {}
   void prefetch_bricks_beyond(Cell, Face) const {}
-  void prefetch_particles_around(Cell, Cell) const {}
+  void prefetch_particles_around(Cell) const {}
   void prefetch_particles_beyond(Cell, Face) const {}
 
  private:
