@@ -112,17 +112,18 @@ class EventLoop {
 
   void update(std::uint32_t p, const Contact& contact) {
     Event& event = gas_.calendar[p];
-    if (contact.time < event.contact_time ||
-        (contact.time == event.contact_time && contact.time < never &&
-         gas_.particles[contact.partner].id < gas_.particles[event.partner].id)) {
-      event.contact_time = contact.time;
-      event.partner = contact.partner;
-      event.partner_changes = gas_.particles[contact.partner].changes;
-    }
+    // Choices, not branches: all of these are as good as random.
+    const bool earlier =
+        contact.time < event.contact_time ||
+        (HWY_UNLIKELY(contact.time == event.contact_time) && contact.time < never &&
+         gas_.particles[contact.partner].id < gas_.particles[event.partner].id);
+    const std::uint32_t changes = gas_.particles[contact.partner].changes;
+    event.contact_time = earlier ? contact.time : event.contact_time;
+    event.partner = earlier ? contact.partner : event.partner;
+    event.partner_changes = earlier ? changes : event.partner_changes;
     const Exit exit = search_.exit(p, event.cell, now_);
-    const bool touches = event.contact_time <= exit.time;
-    event.time = touches ? event.contact_time : exit.time;
-    event.face = touches ? Event::contact : exit.face;
+    event.time = std::min(exit.time, event.contact_time);
+    event.face = event.contact_time <= exit.time ? Event::contact : exit.face;
     gas_.calendar.schedule(p);
   }
 
