@@ -11,13 +11,20 @@ Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inver
   const double cell = std::max(smallest_cell, box.d == 2 ? std::sqrt(own) : std::cbrt(own));
   // Brick coordinates in pairs of cells; at least two bricks along an axis, or the two
   // neighbours of a brick would be the same one.
-  bricks_ = static_cast<std::uint32_t>(
+  const auto bricks = static_cast<std::uint32_t>(
       std::clamp(box.side / (2 * cell), 2.0, static_cast<double>(most_cells / 2)));
-  cells_ = 2 * bricks_;
+  cells_ = 2 * bricks;
   cell_side_ = box.side / cells_;
-  stride_ = {1, bricks_, bricks_ * bricks_};
-  for (unsigned axis = 0; axis < 3; ++axis) wrap_[axis] = (bricks_ - 1) * stride_[axis];
-  lines_.resize(std::size_t{bricks_} * bricks_ * (box.d == 2 ? 1 : bricks_));
+  const std::uint32_t layers = box.d == 2 ? 1 : bricks;
+  for (std::uint32_t axis = 0, stride = 1; axis < 3; ++axis, stride *= bricks) {
+    const std::uint32_t count = axis == 2 ? layers : bricks;
+    for (std::uint32_t c = 0; c < 2 * count; ++c) {
+      const std::uint32_t own = c / 2;
+      const std::uint32_t next = (own + (c % 2 == 1 ? 1 : count - 1)) % count;
+      shares_[axis].push_back({own * stride, next * stride});
+    }
+  }
+  lines_.resize(std::size_t{bricks} * bricks * layers);
   clear();
 }
 

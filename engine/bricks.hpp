@@ -58,16 +58,16 @@ class Bricks {
     std::array<std::uint32_t, slots> slot;  // 0 where empty
   };
 
-  // Some bricks, and in each the slots with (slot & care) == value.
-  template <std::size_t count>
-  struct Masks {
-    std::array<std::uint32_t, count> care;
-    std::array<std::uint32_t, count> value;
-  };
+  // Some bricks, and in each the wanted slots: those that equal `like` where it matters.
   template <std::size_t count>
   struct Wanted {
+    bool holds(std::size_t n, std::uint32_t slot) const {
+      return ((slot ^ like) & (*care)[n]) == 0;
+    }
+
     std::array<std::uint32_t, count> brick;
-    const Masks<count>* masks;
+    std::uint32_t like;
+    const std::array<std::uint32_t, count>* care;  // the bits that matter in brick n
   };
 
   Bricks(const Box& box, std::uint32_t particles);
@@ -104,8 +104,7 @@ class Bricks {
   }
 
   std::uint32_t brick_of(Cell cell) const {
-    return (((cell.packed >> 21) & 511) * bricks_ + ((cell.packed >> 11) & 511)) * bricks_ +
-           ((cell.packed >> 1) & 511);
+    return along(cell, 0).own + along(cell, 1).own + along(cell, 2).own;
   }
   const Line& line(std::uint32_t brick) const { return lines_[brick]; }
   const std::vector<std::uint32_t>& overflow(std::uint32_t brick) const;
@@ -122,59 +121,55 @@ class Bricks {
   static constexpr double smallest_occupancy = 0.4;
   static constexpr std::uint32_t most_cells = 1024;  // along an axis
 
+  // A brick's number is a sum over the axes. Of a cell, along one of them: what its own brick and
+  // the other one that its neighbours are in add to theirs.
+  struct Share {
+    std::uint32_t own;
+    std::uint32_t next;
+  };
+  const Share& along(Cell cell, unsigned axis) const { return shares_[axis][cell[axis]]; }
+
+  // In which half of its brick a cell is along x, y and z: the lowest bits of its coordinates, which
+  // the product puts side by side.
   static std::uint32_t half_of(Cell cell) {
-    return (cell.packed & 1) | (cell.packed >> 9 & 2) | (cell.packed >> 18 & 4);
+    constexpr std::uint32_t lowest = 1 | 1 << 10 | 1 << 20;
+    return (cell.packed & lowest) * (1 << 20 | 1 << 11 | 1 << 2) >> 20 & 7;
   }
   // All ones if the two are equal. Which cells lie at the end of an axis is as good as random: a
   // branch on it is predicted wrong too often to be worth it (three of 24 a collision, once).
   static std::uint32_t wraps(std::uint32_t a, std::uint32_t b) { return 0 - std::uint32_t{a == b}; }
-  // From a cell's brick to the other one that its neighbours along that axis are in.
-  std::uint32_t step(Cell cell, unsigned axis) const {
-    const std::uint32_t own = cell[axis] >> 1;
-    const std::uint32_t down = (cell[axis] & 1) - 1;  // all ones, or zero for up
-    const std::uint32_t end = (bricks_ - 1) & ~down;
-    const std::uint32_t by = wraps(own, end) & (wrap_[axis] + stride_[axis]);
-    return ((stride_[axis] - by) ^ down) - down;
-  }
 
-  // By the half a cell is in. Of brick n, which is its own but for the axes whose bit is set, only
-  // the half that touches the cell.
+  // Around a cell: of brick n, which is its own but for the axes whose bit is set, only the half
+  // that touches the cell, which is the other one than its own.
   template <int d>
-  static constexpr auto around_masks = [] {
-    std::array<Masks<1 << d>, 1 << d> masks{};
-    for (std::uint32_t half = 0; half < 1 << d; ++half)
-      for (std::uint32_t n = 0; n < 1 << d; ++n) {
-        masks[half].care[n] = occupied | n << half_shift;
-        masks[half].value[n] = occupied | (n & ~half) << half_shift;
-      }
-    return masks;
+  static constexpr auto around_care = [] {
+    std::array<std::uint32_t, 1 << d> care{};
+    for (std::uint32_t n = 0; n < 1 << d; ++n) care[n] = occupied | n << half_shift;
+    return care;
   }();
-  // By axis and half. Around a cell of the layer beyond a face, those bricks that hold the layer
-  // itself; in them only its half.
+  // By axis. Around a cell of the layer beyond a face, those bricks that hold the layer itself; in
+  // them only its half.
   template <int d>
-  static constexpr auto beyond_masks = [] {
-    std::array<std::array<Masks<1 << (d - 1)>, 1 << d>, d> masks{};
+  static constexpr auto beyond_care = [] {
+    std::array<std::array<std::uint32_t, 1 << (d - 1)>, d> care{};
     for (std::uint32_t axis = 0; axis < d; ++axis)
-      for (std::uint32_t half = 0; half < 1 << d; ++half)
-        for (std::uint32_t k = 0; k < 1 << (d - 1); ++k) {
-          const std::uint32_t bit = 1u << axis;
-          const std::uint32_t n = (k & ~(bit - 1)) << 1 | (k & (bit - 1));  // k, a zero at the axis
-          masks[axis][half].care[k] = around_masks<d>[half].care[n] | bit << half_shift;
-          masks[axis][half].value[k] = around_masks<d>[half].value[n] | (half & bit) << half_shift;
-        }
-    return masks;
+      for (std::uint32_t k = 0; k < 1 << (d - 1); ++k) {
+        const std::uint32_t bit = 1u << axis;
+        const std::uint32_t n = (k & ~(bit - 1)) << 1 | (k & (bit - 1));  // k, a zero at the axis
+        care[axis][k] = around_care<d>[n] | bit << half_shift;
+      }
+    return care;
   }();
+  static std::uint32_t like(std::uint32_t half) { return occupied | half << half_shift; }
 
   std::uint32_t& find(std::uint32_t brick, std::uint32_t particle);
   void remove(std::uint32_t particle, Cell cell);
 
-  double side_;                          // of the box
-  double inverse_;                       // of that
-  std::uint32_t cells_;                  // along an axis, even
-  std::uint32_t bricks_;                 // along an axis
-  std::array<std::uint32_t, 3> stride_;  // from a brick to the next along an axis,
-  std::array<std::uint32_t, 3> wrap_;    // and from the first to the last
+  double side_;          // of the box
+  double inverse_;       // of that
+  std::uint32_t cells_;  // along an axis, even
   double cell_side_;
+  std::array<std::vector<Share>, 3> shares_;  // by axis and coordinate
   HugeVector<Line> lines_;
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> overflow_;
 };
@@ -196,17 +191,17 @@ template <int d>
 
 template <int d>
 [[gnu::always_inline]] inline Bricks::Wanted<1 << d> Bricks::around(Cell cell) const {
-  const auto& masks = around_masks<d>[half_of(cell)];
-  const std::uint32_t own = brick_of(cell);
-  const std::uint32_t x = step(cell, 0);
-  const std::uint32_t y = step(cell, 1);
+  const auto [x, nx] = along(cell, 0);
+  const auto [y, ny] = along(cell, 1);
+  const std::uint32_t wanted = like(~half_of(cell));
   if constexpr (d == 2) {
-    return {{own, own + x, own + y, own + x + y}, &masks};
+    return {{x + y, nx + y, x + ny, nx + ny}, wanted, &around_care<d>};
   } else {
-    const std::uint32_t z = step(cell, 2);
-    return {
-        {own, own + x, own + y, own + x + y, own + z, own + x + z, own + y + z, own + x + y + z},
-        &masks};
+    const auto [z, nz] = along(cell, 2);
+    return {{x + (y + z), nx + (y + z), x + (ny + z), nx + (ny + z),  //
+             x + (y + nz), nx + (y + nz), x + (ny + nz), nx + (ny + nz)},
+            wanted,
+            &around_care<d>};
   }
 }
 
@@ -215,14 +210,14 @@ template <int d>
                                                                           Face face) const {
   const unsigned axis = face / 2;
   const Cell layer = across(cell, face);
-  const auto& masks = beyond_masks<d>[axis][half_of(layer)];
-  const std::uint32_t own = brick_of(layer);
-  const std::uint32_t a = step(layer, axis == 0 ? 1 : 0);
+  const std::uint32_t wanted = like(~half_of(layer) ^ 1u << axis);
+  const std::uint32_t c = along(layer, axis).own;
+  const auto [a, na] = along(layer, axis == 0 ? 1 : 0);
   if constexpr (d == 2) {
-    return {{own, own + a}, &masks};
+    return {{c + a, c + na}, wanted, &beyond_care<d>[axis]};
   } else {
-    const std::uint32_t b = step(layer, axis == 2 ? 1 : 2);
-    return {{own, own + a, own + b, own + a + b}, &masks};
+    const auto [b, nb] = along(layer, axis == 2 ? 1 : 2);
+    return {{a + (c + b), na + (c + b), a + (c + nb), na + (c + nb)}, wanted, &beyond_care<d>[axis]};
   }
 }
 

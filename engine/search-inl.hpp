@@ -120,7 +120,7 @@ class SimdSearch {
     // They are needed within a few events: into the first-level cache.
     const std::size_t count = gather(0, wanted, list_);
     for (std::size_t k = 0; k < count; ++k)
-      __builtin_prefetch(gas_.particles.data() + list_[k], 0, 3);
+      __builtin_prefetch(gas_.particles.data() + Bricks::particle_in(list_[k]), 0, 3);
   }
 
   using Slots = hn::CappedTag<std::uint32_t, 8>;
@@ -130,51 +130,55 @@ class SimdSearch {
 
   using List = std::vector<std::uint32_t>;
 
-  // The particles in the wanted cells; after the last one, p itself (nobody touches itself) to fill
-  // a vector.
+  // The wanted slots, as they are; after the last one, that of p itself (nobody touches itself) to
+  // fill a vector.
   template <std::size_t bricks>
   HWY_INLINE std::size_t gather(std::uint32_t p, const Bricks::Wanted<bricks>& wanted, List& list) {
     const Slots d;
+    const Bricks::Line* const lines = &gas_.bricks.line(0);
+    const auto like = hn::Set(d, wanted.like);
     std::uint32_t* candidates = list.data();
     std::size_t count = 0;
-    const Bricks::Line* const lines = &gas_.bricks.line(0);
+    const auto take_half = [&](std::size_t n, std::size_t from) HWY_ATTR
+        __attribute__((always_inline)) {
+      const std::uint32_t* const slot = lines[wanted.brick[n]].slot.data();
+      for (std::size_t k = from; k < from + 8; k += hn::MaxLanes(d)) {
+        const auto slots = hn::Load(d, slot + k);
+        const auto differs = hn::And(hn::Xor(slots, like), hn::Set(d, (*wanted.care)[n]));
+        std::uint8_t bits = 0;
+        hn::StoreMaskBits(d, hn::Eq(differs, hn::Zero(d)), &bits);
+        const auto lanes = hn::IndicesFromVec(
+            d, hn::PromoteTo(
+                   d, hn::Load(hn::Rebind<std::uint8_t, Slots>(), compress_table.lanes[bits])));
+        hn::StoreU(hn::TableLookupLanes(slots, lanes), d, candidates + count);
+        count += static_cast<std::size_t>(std::popcount(bits));
+      }
+    };
+    std::uint32_t more = 0;  // slots are filled from the front
 #pragma GCC unroll 8
     for (std::size_t n = 0; n < bricks; ++n) {
-      const std::uint32_t* const slot = lines[wanted.brick[n]].slot.data();
-      const auto care = hn::Set(d, wanted.masks->care[n]);
-      const auto value = hn::Set(d, wanted.masks->value[n]);
-      const auto take_half = [&](std::size_t from) HWY_ATTR __attribute__((always_inline)) {
-        for (std::size_t k = from; k < from + 8; k += hn::MaxLanes(d)) {
-          const auto slots = hn::Load(d, slot + k);
-          std::uint8_t bits = 0;
-          hn::StoreMaskBits(d, hn::Eq(hn::And(slots, care), value), &bits);
-          const auto lanes = hn::IndicesFromVec(
-              d, hn::PromoteTo(
-                     d, hn::Load(hn::Rebind<std::uint8_t, Slots>(), compress_table.lanes[bits])));
-          const auto particles = hn::ShiftRight<Bricks::particle_shift>(slots);
-          hn::StoreU(hn::TableLookupLanes(particles, lanes), d, candidates + count);
-          count += static_cast<std::size_t>(std::popcount(bits));
-        }
-      };
-      take_half(0);
-      if (HWY_UNLIKELY(slot[8] != 0)) {  // slots are filled from the front
-        take_half(8);
-        if (HWY_UNLIKELY(slot[15] != 0)) {
-          count = gather_overflow(wanted.brick[n], wanted.masks->care[n], wanted.masks->value[n],
-                                  list, count);
+      take_half(n, 0);
+      more |= lines[wanted.brick[n]].slot[8];
+    }
+    if (HWY_UNLIKELY(more != 0)) {
+      for (std::size_t n = 0; n < bricks; ++n) {
+        if (lines[wanted.brick[n]].slot[8] != 0) take_half(n, 8);
+        if (HWY_UNLIKELY(lines[wanted.brick[n]].slot[15] != 0)) {
+          count = gather_overflow(n, wanted, list, count);
           candidates = list.data();
         }
       }
     }
-    hn::StoreU(hn::Set(d, p), d, candidates + count);
+    hn::StoreU(hn::Set(d, p << Bricks::particle_shift), d, candidates + count);
     return count;
   }
 
-  HWY_NOINLINE std::size_t gather_overflow(std::uint32_t brick, std::uint32_t care,
-                                           std::uint32_t value, List& list, std::size_t count) {
-    for (const std::uint32_t slot : gas_.bricks.overflow(brick))
-      if ((slot & care) == value) {
-        list[count++] = Bricks::particle_in(slot);
+  template <std::size_t bricks>
+  HWY_NOINLINE std::size_t gather_overflow(std::size_t n, const Bricks::Wanted<bricks>& wanted,
+                                           List& list, std::size_t count) {
+    for (const std::uint32_t slot : gas_.bricks.overflow(wanted.brick[n]))
+      if (wanted.holds(n, slot)) {
+        list[count++] = slot;
         if (list.size() < count + 8 * Bricks::slots + slack) list.resize(2 * list.size());
       }
     return count;
@@ -187,13 +191,15 @@ class SimdSearch {
   // The records of as many candidates as a vector has lanes, one coordinate a vector.
   HWY_INLINE Records load(const std::uint32_t* candidate) const {
     const Reals d;
-    const Particle* const all = gas_.particles.data();
+    // Particle number times sixteen, which is a slot without its tag, times four bytes.
+    static_assert(sizeof(Particle) == 64 && Bricks::particle_shift == 4);
+    const auto* const all = reinterpret_cast<const float*>(gas_.particles.data());
     const auto pair = [&](std::size_t k, V & low, V & high) HWY_ATTR
         __attribute__((always_inline)) {
       // Of each record two neighbouring doubles; records 0, 2 and 1, 3 share a vector.
       const auto at = [&](std::size_t lane) HWY_ATTR {
         return hn::Load(hn::FixedTag<double, 2>(),
-                        reinterpret_cast<const double*>(all + candidate[lane]) + k);
+                        reinterpret_cast<const double*>(all + (candidate[lane] & Bricks::particle_bits)) + k);
       };
 #if HWY_CAP_GE256
       const V even = hn::Combine(d, at(2), at(0));
@@ -227,7 +233,7 @@ class SimdSearch {
            touching != 0; touching &= touching - 1) {
         const auto k = static_cast<std::size_t>(std::countr_zero(touching));
         const double flight = std::max(gap_[k], 0.0) / (std::sqrt(discriminant_[k]) - approach_[k]);
-        keep_first(best, {(fresh ? now : start_[k]) + flight, some[k]}, gas_.particles);
+        keep_first(best, {(fresh ? now : start_[k]) + flight, Bricks::particle_in(some[k])}, gas_.particles);
       }
     }
     return best;

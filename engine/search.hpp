@@ -40,8 +40,7 @@ struct Near {
   static void visit(const Gas& gas, const Bricks::Wanted<count>& wanted, const Visit& visit) {
     for (std::size_t n = 0; n < count; ++n) {
       const auto take = [&](std::uint32_t slot) {
-        if ((slot & wanted.masks->care[n]) == wanted.masks->value[n])
-          visit(Bricks::particle_in(slot), Vector{0, 0, 0});
+        if (wanted.holds(n, slot)) visit(Bricks::particle_in(slot), Vector{0, 0, 0});
       };
       for (const std::uint32_t slot : gas.bricks.line(wanted.brick[n]).slot) take(slot);
       for (const std::uint32_t slot : gas.bricks.overflow(wanted.brick[n])) take(slot);

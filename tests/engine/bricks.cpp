@@ -17,8 +17,7 @@ std::multiset<std::uint32_t> found(const Bricks& bricks, const Bricks::Wanted<co
   std::multiset<std::uint32_t> particles;
   for (std::size_t n = 0; n < count; ++n) {
     const auto take = [&](std::uint32_t slot) {
-      if ((slot & wanted.masks->care[n]) == wanted.masks->value[n])
-        particles.insert(Bricks::particle_in(slot));
+      if (wanted.holds(n, slot)) particles.insert(Bricks::particle_in(slot));
     };
     for (const std::uint32_t slot : bricks.line(wanted.brick[n]).slot) take(slot);
     for (const std::uint32_t slot : bricks.overflow(wanted.brick[n])) take(slot);
