@@ -24,6 +24,9 @@ Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inver
       shares_[axis].push_back({own * stride, next * stride});
     }
   }
+  for (std::uint32_t n = 0; n < 8; ++n) care_around_[n].fill(care_around(n));
+  for (std::uint32_t axis = 0; axis < 3; ++axis)
+    for (std::uint32_t k = 0; k < 4; ++k) care_beyond_[axis][k].fill(care_beyond(axis, k));
   lines_.resize(std::size_t{bricks} * bricks * layers);
   clear();
 }

@@ -58,16 +58,19 @@ class Bricks {
     std::array<std::uint32_t, slots> slot;  // 0 where empty
   };
 
+  // The bits of a slot that matter, once for each slot of half a line: a vector can take them.
+  using Care = std::array<std::uint32_t, 8>;
+
   // Some bricks, and in each the wanted slots: those that equal `like` where it matters.
   template <std::size_t count>
   struct Wanted {
     bool holds(std::size_t n, std::uint32_t slot) const {
-      return ((slot ^ like) & (*care)[n]) == 0;
+      return ((slot ^ like) & care[n][0]) == 0;
     }
 
     std::array<std::uint32_t, count> brick;
     std::uint32_t like;
-    const std::array<std::uint32_t, count>* care;  // the bits that matter in brick n
+    const Care* care;  // in each brick
   };
 
   Bricks(const Box& box, std::uint32_t particles);
@@ -141,25 +144,14 @@ class Bricks {
 
   // Around a cell: of brick n, which is its own but for the axes whose bit is set, only the half
   // that touches the cell, which is the other one than its own.
-  template <int d>
-  static constexpr auto around_care = [] {
-    std::array<std::uint32_t, 1 << d> care{};
-    for (std::uint32_t n = 0; n < 1 << d; ++n) care[n] = occupied | n << half_shift;
-    return care;
-  }();
-  // By axis. Around a cell of the layer beyond a face, those bricks that hold the layer itself; in
-  // them only its half.
-  template <int d>
-  static constexpr auto beyond_care = [] {
-    std::array<std::array<std::uint32_t, 1 << (d - 1)>, d> care{};
-    for (std::uint32_t axis = 0; axis < d; ++axis)
-      for (std::uint32_t k = 0; k < 1 << (d - 1); ++k) {
-        const std::uint32_t bit = 1u << axis;
-        const std::uint32_t n = (k & ~(bit - 1)) << 1 | (k & (bit - 1));  // k, a zero at the axis
-        care[axis][k] = around_care<d>[n] | bit << half_shift;
-      }
-    return care;
-  }();
+  static std::uint32_t care_around(std::uint32_t n) { return occupied | n << half_shift; }
+  // Around a cell of the layer beyond a face, those bricks that hold the layer itself; in them only
+  // its half.
+  static std::uint32_t care_beyond(std::uint32_t axis, std::uint32_t k) {
+    const std::uint32_t bit = 1u << axis;
+    const std::uint32_t n = (k & ~(bit - 1)) << 1 | (k & (bit - 1));  // k, a zero at the axis
+    return care_around(n | bit);
+  }
   static std::uint32_t like(std::uint32_t half) { return occupied | half << half_shift; }
 
   std::uint32_t& find(std::uint32_t brick, std::uint32_t particle);
@@ -170,6 +162,9 @@ class Bricks {
   std::uint32_t cells_;  // along an axis, even
   double cell_side_;
   std::array<std::vector<Share>, 3> shares_;  // by axis and coordinate
+  // Not constants: GCC would make each anew, in three instructions, where one loads it.
+  alignas(32) std::array<Care, 8> care_around_;
+  alignas(32) std::array<std::array<Care, 4>, 3> care_beyond_;  // by axis
   HugeVector<Line> lines_;
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> overflow_;
 };
@@ -195,13 +190,13 @@ template <int d>
   const auto [y, ny] = along(cell, 1);
   const std::uint32_t wanted = like(~half_of(cell));
   if constexpr (d == 2) {
-    return {{x + y, nx + y, x + ny, nx + ny}, wanted, &around_care<d>};
+    return {{x + y, nx + y, x + ny, nx + ny}, wanted, care_around_.data()};
   } else {
     const auto [z, nz] = along(cell, 2);
     return {{x + (y + z), nx + (y + z), x + (ny + z), nx + (ny + z),  //
              x + (y + nz), nx + (y + nz), x + (ny + nz), nx + (ny + nz)},
             wanted,
-            &around_care<d>};
+            care_around_.data()};
   }
 }
 
@@ -214,10 +209,10 @@ template <int d>
   const std::uint32_t c = along(layer, axis).own;
   const auto [a, na] = along(layer, axis == 0 ? 1 : 0);
   if constexpr (d == 2) {
-    return {{c + a, c + na}, wanted, &beyond_care<d>[axis]};
+    return {{c + a, c + na}, wanted, care_beyond_[axis].data()};
   } else {
     const auto [b, nb] = along(layer, axis == 2 ? 1 : 2);
-    return {{a + (c + b), na + (c + b), a + (c + nb), na + (c + nb)}, wanted, &beyond_care<d>[axis]};
+    return {{a + (c + b), na + (c + b), a + (c + nb), na + (c + nb)}, wanted, care_beyond_[axis].data()};
   }
 }
 

@@ -34,15 +34,15 @@ class SimdSearch {
   SimdSearch(const Gas& gas, const HardSpheres&) : gas_(gas) {}
 
   HWY_INLINE Contact around(std::uint32_t p, Cell cell, double now) {
-    const std::size_t count = gather(p, gas_.bricks.around<dimension>(cell), list_);
+    const std::size_t count = gather(p, around(cell), list_);
     return first_of<false>(p, count, list_.data(), now);
   }
   HWY_INLINE Contact around_fresh(std::uint32_t p, Cell cell) {
-    const std::size_t count = gather(p, gas_.bricks.around<dimension>(cell), list_);
+    const std::size_t count = gather(p, around(cell), list_);
     return first_of<true>(p, count, list_.data(), gas_.particles[p].time);
   }
   HWY_INLINE Contact beyond(std::uint32_t p, Cell cell, Face face, double now) {
-    const std::size_t count = gather(p, gas_.bricks.beyond<dimension>(cell, face), list_);
+    const std::size_t count = gather(p, beyond(cell, face), list_);
     return first_of<false>(p, count, list_.data(), now);
   }
 
@@ -50,29 +50,25 @@ class SimdSearch {
   // overlap the two.
   HWY_INLINE std::pair<Contact, Contact> around_both(std::uint32_t p, Cell p_cell, std::uint32_t q,
                                                      Cell q_cell) {
-    const std::size_t p_count = gather(p, gas_.bricks.around<dimension>(p_cell), list_);
-    const std::size_t q_count = gather(q, gas_.bricks.around<dimension>(q_cell), other_list_);
+    const std::size_t p_count = gather(p, around(p_cell), list_);
+    const std::size_t q_count = gather(q, around(q_cell), other_list_);
     const double now = gas_.particles[p].time;
     const Contact first = first_of<true>(p, p_count, list_.data(), now);
     const Contact second = first_of<true>(q, q_count, other_list_.data(), now);
     return {first, second};
   }
 
-  HWY_INLINE void prefetch_bricks_around(Cell cell) const {
-    prefetch_bricks(gas_.bricks.around<dimension>(cell));
-  }
+  HWY_INLINE void prefetch_bricks_around(Cell cell) const { prefetch_bricks(around(cell)); }
   // Of one that is about to leave a cell through a face: it will look beyond that of the next.
   HWY_INLINE void prefetch_bricks_beyond(Cell cell, Face face) const {
     const Cell next = gas_.bricks.across(cell, face);
-    prefetch_bricks(gas_.bricks.beyond<dimension>(next, face));
+    prefetch_bricks(beyond(next, face));
     __builtin_prefetch(&gas_.bricks.line(gas_.bricks.brick_of(next)), 1, 2);
     __builtin_prefetch(&gas_.bricks.line(gas_.bricks.brick_of(cell)), 1, 2);
   }
-  HWY_INLINE void prefetch_particles_around(Cell cell) {
-    prefetch_particles(gas_.bricks.around<dimension>(cell));
-  }
+  HWY_INLINE void prefetch_particles_around(Cell cell) { prefetch_particles(around(cell)); }
   HWY_INLINE void prefetch_particles_beyond(Cell cell, Face face) {
-    prefetch_particles(gas_.bricks.beyond<dimension>(gas_.bricks.across(cell, face), face));
+    prefetch_particles(beyond(gas_.bricks.across(cell, face), face));
   }
 
   // Bricks::exit() for all axes at once.
@@ -110,15 +106,24 @@ class SimdSearch {
   }
 
  private:
-  template <std::size_t bricks>
-  HWY_INLINE void prefetch_bricks(const Bricks::Wanted<bricks>& wanted) const {
-    for (const std::uint32_t brick : wanted.brick)
+  // Where to look, as a function: who seldom needs to know it again asks again, and nobody has to
+  // keep it.
+  HWY_INLINE auto around(Cell cell) const {
+    return [this, cell] { return gas_.bricks.around<dimension>(cell); };
+  }
+  HWY_INLINE auto beyond(Cell cell, Face face) const {
+    return [this, cell, face] { return gas_.bricks.beyond<dimension>(cell, face); };
+  }
+
+  template <class Where>
+  HWY_INLINE void prefetch_bricks(const Where& where) const {
+    for (const std::uint32_t brick : where().brick)
       __builtin_prefetch(&gas_.bricks.line(brick), 0, 2);
   }
-  template <std::size_t bricks>
-  HWY_INLINE void prefetch_particles(const Bricks::Wanted<bricks>& wanted) {
+  template <class Where>
+  HWY_INLINE void prefetch_particles(const Where& where) {
     // They are needed within a few events: into the first-level cache.
-    const std::size_t count = gather(0, wanted, list_);
+    const std::size_t count = gather(0, where, list_);
     for (std::size_t k = 0; k < count; ++k)
       __builtin_prefetch(gas_.particles.data() + Bricks::particle_in(list_[k]), 0, 3);
   }
@@ -130,57 +135,60 @@ class SimdSearch {
 
   using List = std::vector<std::uint32_t>;
 
-  // The wanted slots, as they are; after the last one, that of p itself (nobody touches itself) to
-  // fill a vector.
-  template <std::size_t bricks>
-  HWY_INLINE std::size_t gather(std::uint32_t p, const Bricks::Wanted<bricks>& wanted, List& list) {
-    const Slots d;
-    const Bricks::Line* const lines = &gas_.bricks.line(0);
-    const auto like = hn::Set(d, wanted.like);
-    std::uint32_t* candidates = list.data();
+  // The slots where to look, as they are; after the last one, that of p itself (nobody touches
+  // itself) to fill a vector.
+  template <class Where>
+  HWY_INLINE std::size_t gather(std::uint32_t p, const Where& where, List& list) {
+    const auto wanted = where();
     std::size_t count = 0;
-    const auto take_half = [&](std::size_t n, std::size_t from) HWY_ATTR
-        __attribute__((always_inline)) {
-      const std::uint32_t* const slot = lines[wanted.brick[n]].slot.data();
-      for (std::size_t k = from; k < from + 8; k += hn::MaxLanes(d)) {
-        const auto slots = hn::Load(d, slot + k);
-        const auto differs = hn::And(hn::Xor(slots, like), hn::Set(d, (*wanted.care)[n]));
-        std::uint8_t bits = 0;
-        hn::StoreMaskBits(d, hn::Eq(differs, hn::Zero(d)), &bits);
-        const auto lanes = hn::IndicesFromVec(
-            d, hn::PromoteTo(
-                   d, hn::Load(hn::Rebind<std::uint8_t, Slots>(), compress_table.lanes[bits])));
-        hn::StoreU(hn::TableLookupLanes(slots, lanes), d, candidates + count);
-        count += static_cast<std::size_t>(std::popcount(bits));
-      }
-    };
     std::uint32_t more = 0;  // slots are filled from the front
 #pragma GCC unroll 8
-    for (std::size_t n = 0; n < bricks; ++n) {
-      take_half(n, 0);
-      more |= lines[wanted.brick[n]].slot[8];
+    for (std::size_t n = 0; n < wanted.brick.size(); ++n) {
+      const auto& line = gas_.bricks.line(wanted.brick[n]);
+      count += take_half(line.slot.data(), wanted.like, wanted.care[n], list.data() + count);
+      more |= line.slot[8];
     }
-    if (HWY_UNLIKELY(more != 0)) {
-      for (std::size_t n = 0; n < bricks; ++n) {
-        if (lines[wanted.brick[n]].slot[8] != 0) take_half(n, 8);
-        if (HWY_UNLIKELY(lines[wanted.brick[n]].slot[15] != 0)) {
-          count = gather_overflow(n, wanted, list, count);
-          candidates = list.data();
-        }
-      }
-    }
-    hn::StoreU(hn::Set(d, p << Bricks::particle_shift), d, candidates + count);
+    if (HWY_UNLIKELY(more != 0)) count = gather_rest(where, list, count);
+    const Slots d;
+    hn::StoreU(hn::Set(d, p << Bricks::particle_shift), d, list.data() + count);
     return count;
   }
 
-  template <std::size_t bricks>
-  HWY_NOINLINE std::size_t gather_overflow(std::size_t n, const Bricks::Wanted<bricks>& wanted,
-                                           List& list, std::size_t count) {
-    for (const std::uint32_t slot : gas_.bricks.overflow(wanted.brick[n]))
-      if (wanted.holds(n, slot)) {
-        list[count++] = slot;
+  // The second halves, and what overflows.
+  template <class Where>
+  HWY_NOINLINE std::size_t gather_rest(Where where, List& list, std::size_t count) {
+    const auto wanted = where();
+    for (std::size_t n = 0; n < wanted.brick.size(); ++n) {
+      const auto& slot = gas_.bricks.line(wanted.brick[n]).slot;
+      if (slot[8] != 0)
+        count += take_half(slot.data() + 8, wanted.like, wanted.care[n], list.data() + count);
+      if (HWY_LIKELY(slot[15] == 0)) continue;
+      for (const std::uint32_t extra : gas_.bricks.overflow(wanted.brick[n])) {
+        if (!wanted.holds(n, extra)) continue;
+        list[count++] = extra;
         if (list.size() < count + 8 * Bricks::slots + slack) list.resize(2 * list.size());
       }
+    }
+    return count;
+  }
+
+  // Those of eight slots that are wanted, and how many.
+  HWY_INLINE std::size_t take_half(const std::uint32_t* slot, std::uint32_t like,
+                                   const Bricks::Care& care, std::uint32_t* to) const {
+    const Slots d;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 8; k += hn::MaxLanes(d)) {
+      const auto slots = hn::Load(d, slot + k);
+      const auto differ = hn::And(hn::Xor(slots, hn::Set(d, like)), hn::Load(d, care.data()));
+      std::uint8_t mask = 0;
+      hn::StoreMaskBits(d, hn::Eq(differ, hn::Zero(d)), &mask);
+      const std::size_t bits = mask;
+      const auto lanes = hn::IndicesFromVec(
+          d,
+          hn::PromoteTo(d, hn::Load(hn::Rebind<std::uint8_t, Slots>(), compress_table.lanes[bits])));
+      hn::StoreU(hn::TableLookupLanes(slots, lanes), d, to + count);
+      count += static_cast<std::size_t>(std::popcount(bits));
+    }
     return count;
   }
 
