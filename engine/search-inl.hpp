@@ -229,72 +229,91 @@ class SimdSearch {
   }
 
   // The first contact with one of the candidates. `fresh`: the particle's own time is now, so no
-  // other's is later and half the work falls away.
+  // other's is later and half the work falls away. No branch depends on who touches: a root is
+  // taken of every candidate, of whom one in ten has any, in the shadow of the rest.
   template <bool fresh>
   HWY_INLINE Contact first_of(std::uint32_t p, std::size_t count, const std::uint32_t* candidates,
                               double now) {
+    const Reals d;
+    const hn::RebindToUnsigned<Reals> names;
+    const V none = hn::Set(d, std::numeric_limits<double>::max());  // before never, which is no tie
+    V first = none;
+    auto who = hn::Set(names, std::uint64_t{p} << Bricks::particle_shift);
+    auto tie = hn::Lt(none, none);
+    for (std::size_t k = 0; k < count; k += hn::MaxLanes(d)) {
+      const V time = contact_times<fresh>(p, candidates + k, now);
+      const auto slots =
+          hn::PromoteTo(names, hn::LoadU(hn::Rebind<std::uint32_t, Reals>(), candidates + k));
+      const auto earlier = hn::Lt(time, first);
+      tie = hn::Or(tie, hn::Eq(time, first));
+      first = hn::IfThenElse(earlier, time, first);
+      who = hn::IfThenElse(hn::RebindMask(names, earlier), slots, who);
+    }
+    const V earliest = hn::MinOfLanes(d, first);
+    std::uint8_t mask = 0;
+    hn::StoreMaskBits(d, hn::Eq(first, earliest), &mask);
+    const std::size_t bits = mask;
+    alignas(32) std::uint64_t slot[hn::MaxLanes(Reals())];
+    hn::Store(who, names, slot);
+    const double time = hn::GetLane(earliest);
+    if (time == std::numeric_limits<double>::max()) return {never, p};
+    if (HWY_UNLIKELY(int{(bits & (bits - 1)) != 0} | int{!hn::AllFalse(d, tie)}))
+      return first_by_id(p, count, candidates, now);
+    return {time, Bricks::particle_in(static_cast<std::uint32_t>(slot[std::countr_zero(bits)]))};
+  }
+
+  // The same, one candidate after the other: two of them touch at the very same time.
+  HWY_NOINLINE Contact first_by_id(std::uint32_t p, std::size_t count,
+                                   const std::uint32_t* candidates, double now) const {
     Contact best;
-    for (std::size_t from = 0; from < count; from += block) {
-      const std::uint32_t* const some = candidates + from;
-      // Of a dozen candidates one or two touch: only for those the root is taken.
-      for (std::uint64_t touching = meet<fresh>(p, std::min(count - from, block), some, now);
-           touching != 0; touching &= touching - 1) {
-        const auto k = static_cast<std::size_t>(std::countr_zero(touching));
-        const double flight = std::max(gap_[k], 0.0) / (std::sqrt(discriminant_[k]) - approach_[k]);
-        keep_first(best, {(fresh ? now : start_[k]) + flight, Bricks::particle_in(some[k])}, gas_.particles);
-      }
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t q = Bricks::particle_in(candidates[k]);
+      const Particle& own = gas_.particles[p];
+      const Particle& other = gas_.particles[q];
+      if (q == p) continue;
+      keep_first(best, {HardSpheres::contact_time({own, other, now, gas_.box}, own, other), q},
+                 gas_.particles);
     }
     return best;
   }
 
-  // Bit k: will candidate k touch? Fills approach_, gap_, discriminant_ and start_.
+  // When each of the candidates touches, or never.
   template <bool fresh>
-  HWY_INLINE std::uint64_t meet(std::uint32_t p, std::size_t count, const std::uint32_t* candidates,
-                                double now) {
+  HWY_INLINE V contact_times(std::uint32_t p, const std::uint32_t* candidates, double now) const {
     const Reals d;
     const Particle& own = gas_.particles[p];
-    const V side = hn::Set(d, gas_.box.side);
-    const V inverse = hn::Set(d, gas_.box.inverse);
     const V now_v = hn::Set(d, now);
     const V own_time = hn::Set(d, own.time);
-    std::uint64_t touching = 0;
-    for (std::size_t k = 0; k < count; k += hn::MaxLanes(Reals())) {
-      const Records other = load(candidates + k);
-      const V start = fresh ? now_v : hn::Max(own_time, other.t);
-      const V other_flight = hn::Sub(start, other.t);
-      const V own_flight = hn::Sub(start, own_time);
-      const V to_now = hn::Sub(now_v, start);
-      const auto relative = [&](std::size_t axis, V position, V velocity, V & r, V & v) HWY_ATTR
-          __attribute__((always_inline)) {
-        const V own_v = hn::Set(d, own.velocity[axis]);
-        V own_x = hn::Set(d, own.position[axis]);
-        if constexpr (!fresh) own_x = hn::Add(own_x, hn::Mul(own_v, own_flight));
-        r = hn::Sub(hn::Add(position, hn::Mul(velocity, other_flight)), own_x);
-        v = hn::Sub(velocity, own_v);
-        const V seen = fresh ? r : hn::Add(r, hn::Mul(v, to_now));
-        r = hn::Sub(r, hn::Mul(hn::Round(hn::Mul(seen, inverse)), side));
-      };
-      V rx, ry, vx, vy;
-      V rz = hn::Zero(d), vz = rz;
-      relative(0, other.x, other.vx, rx, vx);
-      relative(1, other.y, other.vy, ry, vy);
-      if constexpr (dimension == 3) relative(2, other.z, other.vz, rz, vz);
-      const V approach = dot(rx, ry, rz, vx, vy, vz);
-      const V gap = hn::Sub(dot(rx, ry, rz, rx, ry, rz), hn::Set(d, 1.0));
-      const V discriminant =
-          hn::Sub(hn::Mul(approach, approach), hn::Mul(dot(vx, vy, vz, vx, vy, vz), gap));
-      std::uint8_t bits = 0;
-      hn::StoreMaskBits(d,
-                        hn::And(hn::Lt(approach, hn::Set(d, -smallest_approach)),
-                                hn::Ge(discriminant, hn::Zero(d))),
-                        &bits);
-      touching |= std::uint64_t{bits} << k;
-      hn::Store(approach, d, approach_ + k);
-      hn::Store(gap, d, gap_ + k);
-      hn::Store(discriminant, d, discriminant_ + k);
-      if constexpr (!fresh) hn::Store(start, d, start_ + k);
-    }
-    return touching;
+    const Records other = load(candidates);
+    const V start = fresh ? now_v : hn::Max(own_time, other.t);
+    const V other_flight = hn::Sub(start, other.t);
+    const V own_flight = hn::Sub(start, own_time);
+    const V to_now = hn::Sub(now_v, start);
+    const auto relative = [&](std::size_t axis, V position, V velocity, V & r, V & v) HWY_ATTR
+        __attribute__((always_inline)) {
+      const V own_v = hn::Set(d, own.velocity[axis]);
+      V own_x = hn::Set(d, own.position[axis]);
+      if constexpr (!fresh) own_x = hn::Add(own_x, hn::Mul(own_v, own_flight));
+      r = hn::Sub(hn::Add(position, hn::Mul(velocity, other_flight)), own_x);
+      v = hn::Sub(velocity, own_v);
+      const V seen = fresh ? r : hn::Add(r, hn::Mul(v, to_now));
+      const V boxes = hn::Round(hn::Mul(seen, hn::Set(d, gas_.box.inverse)));
+      r = hn::Sub(r, hn::Mul(boxes, hn::Set(d, gas_.box.side)));
+    };
+    V rx, ry, vx, vy;
+    V rz = hn::Zero(d), vz = rz;
+    relative(0, other.x, other.vx, rx, vx);
+    relative(1, other.y, other.vy, ry, vy);
+    if constexpr (dimension == 3) relative(2, other.z, other.vz, rz, vz);
+    const V approach = dot(rx, ry, rz, vx, vy, vz);
+    const V gap = hn::Sub(dot(rx, ry, rz, rx, ry, rz), hn::Set(d, 1.0));
+    const V discriminant =
+        hn::Sub(hn::Mul(approach, approach), hn::Mul(dot(vx, vy, vz, vx, vy, vz), gap));
+    const auto touches = hn::And(hn::Lt(approach, hn::Set(d, -smallest_approach)),
+                                 hn::Ge(discriminant, hn::Zero(d)));
+    const V flight =
+        hn::Div(hn::Max(gap, hn::Zero(d)), hn::Sub(hn::Sqrt(discriminant), approach));
+    return hn::IfThenElse(touches, hn::Add(start, flight), hn::Set(d, never));
   }
 
   static HWY_INLINE V dot(V ax, V ay, V az, V bx, V by, V bz) {
@@ -303,15 +322,9 @@ class SimdSearch {
     return hn::Add(planar, hn::Mul(az, bz));
   }
 
-  static constexpr std::size_t block = 64;
-
   const Gas& gas_;
   List list_ = List(8 * Bricks::slots + slack);
   List other_list_ = list_;
-  alignas(64) double approach_[block];
-  alignas(64) double gap_[block];
-  alignas(64) double discriminant_[block];
-  alignas(64) double start_[block];
 };
 
 #endif

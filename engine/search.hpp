@@ -27,11 +27,20 @@ struct CompressTable {
 };
 inline constexpr CompressTable compress_table;
 
-// The earlier contact; at the very same time the one with the smaller id.
+// Whether the one contact comes before the other; at the very same time that with the smaller id
+// does. Which is earlier is as good as random: written so that it is computed, not branched on.
+inline bool comes_before(const Contact& one, const Contact& other,
+                         const HugeVector<Particle>& particles) {
+  bool earlier = one.time < other.time;
+  if (int{one.time == other.time} & int{one.time < never}) [[unlikely]]
+    earlier = particles[one.partner].id < particles[other.partner].id;
+  return earlier;
+}
+
 inline void keep_first(Contact& best, const Contact& other, const HugeVector<Particle>& particles) {
-  if (other.time < best.time || (other.time == best.time && other.time < never &&
-                                 particles[other.partner].id < particles[best.partner].id))
-    best = other;
+  const bool earlier = comes_before(other, best, particles);
+  best.time = earlier ? other.time : best.time;
+  best.partner = earlier ? other.partner : best.partner;
 }
 
 // Candidates: who is in the wanted cells, as the nearest image.
