@@ -1,6 +1,6 @@
 #include "engine/calendar.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace haff::engine {
@@ -12,78 +12,133 @@ std::size_t windows_ahead(std::size_t particles) {
   return std::max<std::size_t>(1024, particles / 256);
 }
 
+// Where each of up to 32 numbers goes when they are put in order: how many are smaller. All
+// comparisons of all with all: no branch, and the compiler makes vectors of it. The numbers differ.
+constexpr std::size_t most_ranked = 32;
+using Keys = std::array<std::int32_t, most_ranked>;
+
+template <std::size_t padded>
+void rank_all(const Keys& key, std::size_t count, Keys& rank) {
+  alignas(64) std::array<std::int32_t, padded> smaller{};
+  for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t i = 0; i < padded; ++i) smaller[i] += key[j] < key[i] ? 1 : 0;
+  for (std::size_t i = 0; i < padded; ++i) rank[i] = smaller[i];
+}
+
 }  // namespace
 
-void Calendar::restart(double rate) {
+void Calendar::restart(double rate, std::uint32_t foresight) {
   slots_per_time_ = rate / events_per_slot;
+  foresight_ = foresight;
   slot_ = 0;
   first_window_ = 0;
-  active_.clear();
-  heads_.assign(fine_slots, none);
-  nodes_.clear();
-  free_node_ = none;
+  due_.assign(2, {std::numeric_limits<double>::infinity(), 0});
+  head_ = 0;
+  slots_.assign(slots + 1, {});
   windows_.assign(windows_ahead(events_.size()), {});
   chunks_.clear();
   free_chunk_ = none;
   beyond_.clear();
 }
 
+template <class Visit>
+void Calendar::empty(List& list, const Visit& visit) {
+  std::uint32_t count = list.count;
+  for (std::uint32_t chunk = list.chunk; chunk != none; count = 15) {
+    for (std::uint32_t k = 0; k < count; ++k) visit(chunks_[chunk].particle[k]);
+    const std::uint32_t next_chunk = chunks_[chunk].next;
+    chunks_[chunk].next = free_chunk_;
+    free_chunk_ = chunk;
+    chunk = next_chunk;
+  }
+  list = {};
+}
+
+void Calendar::add_to_due(double time, std::uint32_t particle) {
+  due_.push_back(due_.back());
+  std::size_t k = due_.size() - 3;
+  for (; k > head_ && time < due_[k - 1].time; --k) due_[k] = due_[k - 1];
+  due_[k] = {time, particle};
+}
+
+// Puts the first `count` of found_ in order, at the end of what is due.
+void Calendar::sort_in(std::size_t count) {
+  const Entry last = due_.back();
+  const std::size_t before = due_.size() - 2;
+  due_.resize(before + count + 2, last);
+  const auto begin = due_.begin() + static_cast<std::ptrdiff_t>(before);
+  const auto end = begin + static_cast<std::ptrdiff_t>(count);
+  const auto sooner = [](const Entry& a, const Entry& b) { return a.time < b.time; };
+  std::copy(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(count), begin);
+  if (count <= most_ranked) {
+    // 26 bits of the time within the slot, and five that tell one from another.
+    alignas(64) Keys key;
+    key.fill(std::numeric_limits<std::int32_t>::max());
+    for (std::size_t k = 0; k < count; ++k) {
+      const double in_slot = found_[k].time * slots_per_time_ - static_cast<double>(slot_);
+      key[k] = static_cast<std::int32_t>(in_slot * 0x1p26) << 5 | static_cast<std::int32_t>(k);
+    }
+    Keys rank;
+    if (count <= most_ranked / 2)
+      rank_all<most_ranked / 2>(key, count, rank);
+    else
+      rank_all<most_ranked>(key, count, rank);
+    for (std::size_t k = 0; k < count; ++k) begin[rank[k]] = found_[k];
+  }
+  // Too many to be ranked, or two closer than 2^-26 of a slot.
+  if (!std::is_sorted(begin, end, sooner)) [[unlikely]]
+    std::sort(begin, end, sooner);
+}
+
 bool Calendar::open_next_slot() {
+  // What is left of the slots before comes to the front.
+  due_.erase(due_.begin(), due_.begin() + static_cast<std::ptrdiff_t>(head_));
+  head_ = 0;
   for (;;) {
     ++slot_;
-    const auto local = static_cast<std::uint32_t>(slot_ % fine_slots);
-    if (local == 0 && !open_next_window()) return false;
-    std::uint32_t node = heads_[local];
-    if (node == none) continue;
-    heads_[local] = none;
-    while (node != none) {
-      const Node taken = nodes_[node];
-      nodes_[node].next = free_node_;
-      free_node_ = node;
-      if (const Entry entry{taken.time, taken.particle}; !outdated(entry))
-        add_to_active(entry.time, entry.particle);
-      node = taken.next;
-    }
-    if (!active_.empty()) return true;
+    if (slot_ % slots == 0 && !open_next_window()) return false;
+    List& list = slots_[slot_ % slots];
+    if (list.chunk == none) continue;
+    std::size_t count = 0;
+    empty(list, [&](std::uint32_t particle) {
+      if (count == found_.size()) [[unlikely]]
+        found_.resize(2 * count + 16);
+      const double time = events_[particle].time;
+      found_[count] = {time, particle};
+      count += slot_of(time) == slot_;
+    });
+    if (count == 0) continue;
+    sort_in(count);
+    return true;
   }
 }
 
 bool Calendar::open_next_window() {
   // slot_ is the first of the new window. Skip windows that are empty.
-  while (true) {
-    const std::uint64_t window = slot_ / fine_slots;
+  for (;;) {
+    const std::uint64_t window = slot_ / slots;
     if (window - first_window_ >= windows_.size()) {
       if (beyond_.empty()) return false;
       extend();
       continue;
     }
-    Window& opened = windows_[window - first_window_];
-    if (opened.chunk == none) {
-      slot_ += fine_slots;
+    List& list = windows_[window - first_window_];
+    if (list.chunk == none) {
+      slot_ += slots;
       continue;
     }
     // Their events are all over memory: fetched all before the first is needed, they take a third
     // of the time.
     opened_.clear();
-    std::uint32_t count = opened.count;
-    for (std::uint32_t chunk = opened.chunk; chunk != none; count = 15) {
-      for (std::uint32_t k = 0; k < count; ++k) {
-        __builtin_prefetch(&events_[chunks_[chunk].particle[k]], 0, 2);
-        opened_.push_back(chunks_[chunk].particle[k]);
-      }
-      const std::uint32_t next_chunk = chunks_[chunk].next;
-      chunks_[chunk].next = free_chunk_;
-      free_chunk_ = chunk;
-      chunk = next_chunk;
-    }
-    opened = {};
+    empty(list, [&](std::uint32_t particle) {
+      __builtin_prefetch(&events_[particle], 0, 2);
+      opened_.push_back(particle);
+    });
     for (const std::uint32_t particle : opened_) {
-      const double time = events_[particle].time;
-      const double slots = time * slots_per_time_;
-      if (slots >= static_cast<double>(slot_) && slots < static_cast<double>(slot_ + fine_slots))
-        add_to_slot(static_cast<std::uint32_t>(static_cast<std::uint64_t>(slots) % fine_slots),
-                    time, particle);
+      const std::uint64_t slot = slot_of(events_[particle].time);
+      append(slots_[slot / slots == window ? slot % slots : slots], particle);
     }
+    empty(slots_[slots], [](std::uint32_t) {});
     return true;
   }
 }
@@ -96,16 +151,14 @@ void Calendar::extend() {
   for (const std::uint32_t particle : waiting)
     earliest = std::min(earliest, events_[particle].time);
   // An outdated entry's particle has an entry elsewhere too; its time may be long past.
-  const double slots = earliest * slots_per_time_;
-  if (slots > static_cast<double>(slot_) && slots < 0x1p62)
-    slot_ = static_cast<std::uint64_t>(slots) / fine_slots * fine_slots;
-  first_window_ = slot_ / fine_slots;
-  std::fill(windows_.begin(), windows_.end(), Window{});
+  if (const std::uint64_t slot = slot_of(earliest); slot > slot_ && slot != no_slot)
+    slot_ = slot / slots * slots;
+  first_window_ = slot_ / slots;
+  std::fill(windows_.begin(), windows_.end(), List{});
   for (const std::uint32_t particle : waiting) {
-    const double at = events_[particle].time * slots_per_time_;
-    if (at < static_cast<double>(slot_)) continue;  // outdated
-    if (!(at < 0x1p62)) continue;                   // never
-    const std::uint64_t window = static_cast<std::uint64_t>(at) / fine_slots - first_window_;
+    const std::uint64_t slot = slot_of(events_[particle].time);
+    if (slot < slot_ || slot == no_slot) continue;  // outdated, or never
+    const std::uint64_t window = slot / slots - first_window_;
     if (window < windows_.size())
       append(windows_[window], particle);
     else
@@ -115,8 +168,9 @@ void Calendar::extend() {
 
 std::size_t Calendar::memory() const {
   return events_.capacity() * sizeof(Event) + chunks_.capacity() * sizeof(Chunk) +
-         nodes_.capacity() * sizeof(Node) + windows_.capacity() * sizeof(Window) +
-         (active_.capacity()) * sizeof(Entry) + beyond_.capacity() * sizeof(std::uint32_t);
+         (windows_.capacity() + slots_.capacity()) * sizeof(List) +
+         (due_.capacity() + found_.capacity()) * sizeof(Entry) +
+         (beyond_.capacity() + opened_.capacity()) * sizeof(std::uint32_t);
 }
 
 }  // namespace haff::engine

@@ -1,13 +1,17 @@
 // Every particle's next event, and which of them comes first.
 //
-// A ladder: time since the synchronization is cut into windows, a window into `fine_slots`
-// slots. An event in a later window is one 4-byte particle number appended to that window's list.
-// When a window's turn comes its events go to their slots, and a slot is sorted when reached.
-// Nothing is ever deleted: an entry whose particle has been given another time since is dropped
-// when met. So the hot part stays in cache however many particles there are.
+// A ladder: time since the synchronization is cut into windows, a window into slots, a slot holds a
+// dozen events. An event in a later slot is one 4-byte particle number appended to that slot's list,
+// one in a later window to that window's. When a window's turn comes its events go to its slots;
+// when a slot's turn comes its events are sorted, all at once and without a branch (what is sooner
+// is as good as random: a heap, or lists of one or two, are predicted wrong several times an event),
+// and are due. Nothing is ever deleted: an entry whose particle has been given another time since is
+// dropped when met. So the hot part stays in cache however many particles there are.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "engine/bricks.hpp"
@@ -37,72 +41,61 @@ class Calendar {
   Event& operator[](std::uint32_t particle) { return events_[particle]; }
   const Event& operator[](std::uint32_t particle) const { return events_[particle]; }
 
-  // Empties the calendar and starts it at time zero, for about `rate` events a unit of time.
-  void restart(double rate);
+  // Empties the calendar and starts it at time zero, for about `rate` events a unit of time. From
+  // then on `foresight` events are known to coming().
+  void restart(double rate, std::uint32_t foresight = 0);
 
   // Enters the particle at its event's time.
   void schedule(std::uint32_t particle);
 
   // Takes out the particle whose event is first, or nobody. Where several share the very same
   // time, the one with the smallest rank(particle) is first: order must not depend on how entries
-  // happen to lie.
+  // happen to lie. (Two who touch each other share it, and it is all the same which is first.)
   template <class Rank>
   std::uint32_t next(Rank&& rank);
 
-  // The slot being worked off, and whose entries are in a coming one. Nothing is seen across the
-  // end of the window.
-  std::uint64_t slot() const { return slot_; }
-  auto coming_in(std::uint64_t slot) const {
-    const bool known = slot / fine_slots == slot_ / fine_slots;
-    return Coming{*this, known ? heads_[slot % fine_slots] : none};
+  // The particle's next entry is void. Only a hint, and heeded only if it is the very next.
+  void forget(std::uint32_t particle) { head_ += due_[head_].particle == particle; }
+
+  // Whose event comes so many places later, as far as is known now; at the end, any particle.
+  std::uint32_t coming(std::uint32_t places) const {
+    return due_[std::min<std::size_t>(head_ + places, due_.size() - 1)].particle;
   }
 
   std::size_t memory() const;
 
  private:
-  static constexpr std::uint32_t fine_slots = 512;
-  static constexpr double events_per_slot = 1.5;
+  static constexpr std::uint32_t slots = 64;  // in a window
+  static constexpr double events_per_slot = 12;
   static constexpr std::uint32_t none = 0xffffffff;
+  static constexpr std::uint64_t no_slot = std::uint64_t{1} << 62;
 
   struct Entry {
     double time;
     std::uint32_t particle;
   };
-  struct Node {
-    double time;
-    std::uint32_t particle;
-    std::uint32_t next;
-  };
-  // The particles in a list of nodes.
-  struct Coming {
-    struct Iterator {
-      const Node* nodes;
-      std::uint32_t node;
-
-      std::uint32_t operator*() const { return nodes[node].particle; }
-      void operator++() { node = nodes[node].next; }
-      bool operator!=(const Iterator& other) const { return node != other.node; }
-    };
-    Iterator begin() const { return {calendar.nodes_.data(), first}; }
-    Iterator end() const { return {nullptr, none}; }
-
-    const Calendar& calendar;
-    std::uint32_t first;
-  };
-  // A window's list, in cache lines of 15 particles; `next` is the chunk filled before.
+  // Particles in cache lines of 15; `next` is the chunk filled before.
   struct alignas(64) Chunk {
     std::uint32_t particle[15];
     std::uint32_t next;
   };
-  struct Window {
+  struct List {
     std::uint32_t chunk = none;
     std::uint32_t count = 15;  // in the newest chunk; a full one makes the next append open another
   };
 
+  // Far beyond any window, and infinity: kept aside, as the conversion would overflow.
+  std::uint64_t slot_of(double time) const {
+    const double slot = time * slots_per_time_;
+    return slot < 0x1p62 ? static_cast<std::uint64_t>(slot) : no_slot;
+  }
   bool outdated(const Entry& entry) const { return events_[entry.particle].time != entry.time; }
-  void append(Window& window, std::uint32_t particle);
-  void add_to_slot(std::uint32_t slot, double time, std::uint32_t particle);
-  void add_to_active(double time, std::uint32_t particle);
+  bool only_twins() const;
+  void append(List& list, std::uint32_t particle);
+  template <class Visit>
+  void empty(List& list, const Visit& visit);
+  void add_to_due(double time, std::uint32_t particle);
+  void sort_in(std::size_t count);
   bool open_next_slot();    // the next slot with entries; false if there is none
   bool open_next_window();  // false if nothing is left
   void extend();            // more windows, for what lay beyond the last
@@ -112,21 +105,23 @@ class Calendar {
   HugeVector<Event> events_;
 
   double slots_per_time_ = 0;
-  std::uint64_t slot_ = 0;            // being worked off, counted from time zero
-  std::uint64_t first_window_ = 0;    // number of windows_[0]
-  std::vector<Entry> active_;         // its entries, latest first
-  std::vector<std::uint32_t> heads_;  // the current window's slots: lists of nodes
-  std::vector<Node> nodes_;
-  std::uint32_t free_node_ = none;
-  std::vector<Window> windows_;
+  std::uint32_t foresight_ = 0;
+  std::uint64_t slot_ = 0;          // the last one that is due, counted from time zero
+  std::uint64_t first_window_ = 0;  // number of windows_[0]
+  // In order from head_ on; at the end two that are never due, of particle 0.
+  std::vector<Entry> due_;
+  std::size_t head_ = 0;
+  std::vector<List> slots_;  // of the current window; the last one is for what belongs to none
+  std::vector<List> windows_;
   HugeVector<Chunk> chunks_;
   std::uint32_t free_chunk_ = none;
   std::vector<std::uint32_t> opened_;  // particles of a window that is being opened
+  std::vector<Entry> found_;           // entries of a slot that is being opened
   std::vector<std::uint32_t> beyond_;  // events after the last window
 };
 
-inline void Calendar::append(Window& window, std::uint32_t particle) {
-  if (window.count == 15) {
+inline void Calendar::append(List& list, std::uint32_t particle) {
+  if (list.count == 15) [[unlikely]] {
     std::uint32_t fresh = free_chunk_;
     if (fresh == none) {
       fresh = static_cast<std::uint32_t>(chunks_.size());
@@ -134,45 +129,22 @@ inline void Calendar::append(Window& window, std::uint32_t particle) {
     } else {
       free_chunk_ = chunks_[fresh].next;
     }
-    chunks_[fresh].next = window.chunk;
-    window.chunk = fresh;
-    window.count = 0;
+    chunks_[fresh].next = list.chunk;
+    list.chunk = fresh;
+    list.count = 0;
   }
-  chunks_[window.chunk].particle[window.count++] = particle;
-}
-
-inline void Calendar::add_to_slot(std::uint32_t slot, double time, std::uint32_t particle) {
-  std::uint32_t node = free_node_;
-  if (node == none) {
-    node = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back();
-  } else {
-    free_node_ = nodes_[node].next;
-  }
-  nodes_[node] = {time, particle, heads_[slot]};
-  heads_[slot] = node;
-}
-
-inline void Calendar::add_to_active(double time, std::uint32_t particle) {
-  active_.push_back({time, particle});
-  for (std::size_t k = active_.size() - 1; k > 0 && active_[k - 1].time < time; --k)
-    std::swap(active_[k - 1], active_[k]);
+  chunks_[list.chunk].particle[list.count++] = particle;
 }
 
 inline void Calendar::schedule(std::uint32_t particle) {
   const double time = events_[particle].time;
-  // Far beyond any window, and infinity: kept aside, as the conversion below would overflow.
-  const double slots = time * slots_per_time_;
-  const auto slot = slots < 0x1p62 ? static_cast<std::uint64_t>(slots) : std::uint64_t{1} << 62;
-  if (slot <= slot_) {
-    add_to_active(time, particle);
-    return;
-  }
-  const std::uint64_t window = slot / fine_slots;
-  if (window == slot_ / fine_slots)
-    add_to_slot(static_cast<std::uint32_t>(slot % fine_slots), time, particle);
-  else if (window - first_window_ < windows_.size())
-    append(windows_[window - first_window_], particle);
+  const std::uint64_t slot = slot_of(time);
+  const std::uint64_t window = slot / slots;
+  const bool current = window == slot_ / slots;
+  if (slot <= slot_) [[unlikely]]
+    add_to_due(time, particle);
+  else if (int{current} | int{window - first_window_ < windows_.size()}) [[likely]]
+    append(current ? slots_[slot % slots] : windows_[window - first_window_], particle);
   else
     beyond_.push_back(particle);
 }
@@ -180,30 +152,43 @@ inline void Calendar::schedule(std::uint32_t particle) {
 template <class Rank>
 std::uint32_t Calendar::next(Rank&& rank) {
   for (;;) {
-    if (active_.empty() && !open_next_slot()) return nobody;
-    if (active_.size() > 1 && active_.back().time == active_[active_.size() - 2].time)
+    while (head_ + foresight_ + 2 >= due_.size() && open_next_slot()) {
+    }
+    const Entry& first = due_[head_];
+    if (first.time == std::numeric_limits<double>::infinity()) [[unlikely]]
+      return nobody;
+    if (outdated(first)) [[unlikely]] {
+      ++head_;
+      continue;
+    }
+    if (int{due_[head_ + 1].time == first.time} & int{!only_twins()}) [[unlikely]]
       return settle_tie(rank);
-    const Entry first = active_.back();
-    active_.pop_back();
-    if (!outdated(first)) return first.particle;
+    ++head_;
+    return first.particle;
   }
+}
+
+// Whether the next two are one contact, seen from both sides, and the third comes later.
+inline bool Calendar::only_twins() const {
+  const Entry* const due = due_.data() + head_;
+  const Event& one = events_[due[0].particle];
+  const Event& other = events_[due[1].particle];
+  return int{one.partner == due[1].particle} & int{other.partner == due[0].particle} &
+         int{(one.face & other.face) == Event::contact} & int{due[2].time != due[0].time};
 }
 
 template <class Rank>
 std::uint32_t Calendar::settle_tie(Rank&& rank) {
-  const double time = active_.back().time;
-  const auto others = std::find_if(active_.rbegin(), active_.rend(),
-                                   [&](const Entry& entry) { return entry.time != time; });
-  const auto tied = others.base();
-  active_.erase(
-      std::remove_if(tied, active_.end(), [&](const Entry& entry) { return outdated(entry); }),
-      active_.end());
-  if (tied == active_.end()) return next(rank);
-  const auto first = std::min_element(tied, active_.end(), [&](const Entry& a, const Entry& b) {
+  const auto tied = due_.begin() + static_cast<std::ptrdiff_t>(head_);
+  const auto end = std::find_if(
+      tied, due_.end(), [time = tied->time](const Entry& entry) { return entry.time != time; });
+  const auto first = std::min_element(tied, end, [&](const Entry& a, const Entry& b) {
+    if (outdated(a) || outdated(b)) return outdated(a) < outdated(b);
     return rank(a.particle) < rank(b.particle);
   });
   const std::uint32_t particle = first->particle;
-  active_.erase(first);
+  std::rotate(tied, first, first + 1);
+  ++head_;
   return particle;
 }
 

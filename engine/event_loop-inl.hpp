@@ -66,13 +66,15 @@ class EventLoop {
 
  private:
   void collide(std::uint32_t p, std::uint32_t q) {
-    const double since = std::min(gas_.particles[p].time, gas_.particles[q].time);
+    const double p_time = gas_.particles[p].time;
+    const double q_time = gas_.particles[q].time;
     const double approach =
         physics_.collide(gas_.particles[p], gas_.particles[q], now_, gas_.box, gas_.clock);
+    gas_.calendar.forget(q);
     ++collisions_;
     ++gas_.events.collisions;
     if (approach > -slow_approach) [[unlikely]]
-      watch(p, q, since);
+      watch(p, q, std::min(p_time, q_time));
     const auto [first, second] =
         search_.around_both(p, gas_.calendar[p].cell, q, gas_.calendar[q].cell);
     gas_.calendar[p].contact_time = never;
@@ -110,65 +112,55 @@ class EventLoop {
     update(p, search_.around_fresh(p, gas_.calendar[p].cell));
   }
 
+  // Choices, not branches: all of these are as good as random.
   void update(std::uint32_t p, const Contact& contact) {
     Event& event = gas_.calendar[p];
-    // Choices, not branches: all of these are as good as random.
     const bool earlier =
-        contact.time < event.contact_time ||
-        (HWY_UNLIKELY(contact.time == event.contact_time) && contact.time < never &&
-         gas_.particles[contact.partner].id < gas_.particles[event.partner].id);
+        comes_before(contact, {event.contact_time, event.partner}, gas_.particles);
     const std::uint32_t changes = gas_.particles[contact.partner].changes;
-    event.contact_time = earlier ? contact.time : event.contact_time;
+    const double contact_time = earlier ? contact.time : event.contact_time;
+    event.contact_time = contact_time;
     event.partner = earlier ? contact.partner : event.partner;
     event.partner_changes = earlier ? changes : event.partner_changes;
     const Exit exit = search_.exit(p, event.cell, now_);
-    event.time = std::min(exit.time, event.contact_time);
-    event.face = event.contact_time <= exit.time ? Event::contact : exit.face;
+    const bool leaves = exit.time < contact_time;
+    event.time = leaves ? exit.time : contact_time;
+    event.face = leaves ? exit.face : Event::contact;
     gas_.calendar.schedule(p);
   }
 
-  // What the events of the coming slots need, in four steps, each of which needs the one before to
-  // have arrived: the particle and its event; its partner, and the bricks around it; the particles
-  // in those, and the bricks around the partner; the particles in those. All but the particles into
-  // the second-level cache.
-  // (Plain loops: GCC deletes the call of a function, or a lambda, that does nothing but prefetch.)
+  // What the coming events need, in four steps, each of which needs the one before to have arrived:
+  // the particle and its event; its partner, and the bricks around it; the particles in those, and
+  // the bricks around the partner; the particles in those. All but the particles into the
+  // second-level cache.
+  // (GCC deletes the call of a lambda that does nothing but prefetch.)
   void look_ahead() {
-    const std::uint64_t slot = gas_.calendar.slot();
-    // Every slot once, though empty ones are jumped over; not more than the steps reach.
-    looked_at_ = std::max(looked_at_, slot - std::min<std::uint64_t>(slot, 4 * stride));
-    while (looked_at_ < slot) {
-      ++looked_at_;
-      for (const std::uint32_t p : gas_.calendar.coming_in(looked_at_ + 4 * stride)) {
-        __builtin_prefetch(gas_.particles.data() + p, 1, 2);
-        __builtin_prefetch(&gas_.calendar[p], 1, 2);
-      }
-      for (const std::uint32_t p : gas_.calendar.coming_in(looked_at_ + 3 * stride)) {
-        const Event& event = gas_.calendar[p];
-        if (event.face == Event::contact) {
-          __builtin_prefetch(gas_.particles.data() + event.partner, 1, 2);
-          __builtin_prefetch(&gas_.calendar[event.partner], 1, 2);
-          search_.prefetch_bricks_around(event.cell);
-        } else {
-          search_.prefetch_bricks_beyond(event.cell, event.face);
-        }
-      }
-      for (const std::uint32_t p : gas_.calendar.coming_in(looked_at_ + 2 * stride)) {
-        const Event& event = gas_.calendar[p];
-        if (event.face == Event::contact) {
-          search_.prefetch_particles_around(event.cell);
-          const Cell partner = gas_.calendar[event.partner].cell;
-          if (partner != event.cell) search_.prefetch_bricks_around(partner);
-        } else {
-          search_.prefetch_particles_beyond(event.cell, event.face);
-        }
-      }
-      if (!huge_) continue;
-      for (const std::uint32_t p : gas_.calendar.coming_in(looked_at_ + stride)) {
-        const Event& event = gas_.calendar[p];
-        if (event.face == Event::contact && gas_.calendar[event.partner].cell != event.cell)
-          search_.prefetch_particles_around(gas_.calendar[event.partner].cell);
-      }
+    {
+      const std::uint32_t p = gas_.calendar.coming(4 * stride);
+      __builtin_prefetch(gas_.particles.data() + p, 1, 2);
+      __builtin_prefetch(&gas_.calendar[p], 1, 2);
     }
+    if (const Event& event = coming(3 * stride); event.face == Event::contact) {
+      __builtin_prefetch(gas_.particles.data() + event.partner, 1, 2);
+      __builtin_prefetch(&gas_.calendar[event.partner], 1, 2);
+      search_.prefetch_bricks_around(event.cell);
+    } else {
+      search_.prefetch_bricks_beyond(event.cell, event.face);
+    }
+    if (const Event& event = coming(2 * stride); event.face == Event::contact) {
+      search_.prefetch_particles_around(event.cell);
+      const Cell partner = gas_.calendar[event.partner].cell;
+      if (partner != event.cell) search_.prefetch_bricks_around(partner);
+    } else {
+      search_.prefetch_particles_beyond(event.cell, event.face);
+    }
+    if (!huge_) return;
+    if (const Event& event = coming(stride); event.face == Event::contact &&
+                                             gas_.calendar[event.partner].cell != event.cell)
+      search_.prefetch_particles_around(gas_.calendar[event.partner].cell);
+  }
+  const Event& coming(std::uint32_t places) const {
+    return gas_.calendar[gas_.calendar.coming(places)];
   }
 
   // Order among events of the very same time: crossings, then contacts by their particles' ids.
@@ -180,11 +172,10 @@ class EventLoop {
     return 1 + (std::min(a, b) << 32 | std::max(a, b));
   }
 
-  static constexpr std::uint32_t stride = 2;  // slots between two steps of look_ahead()
+  static constexpr std::uint32_t stride = foresight / 4;  // events between steps of look_ahead()
 
   Gas& gas_;
   Physics& physics_;
-  std::uint64_t looked_at_ = 0;
   // Beyond the third-level cache. Below, most of what is near the partner is there anyway, and the
   // fourth step costs more than it gains.
   const bool huge_ = gas_.particles.size() > 200000;

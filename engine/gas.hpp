@@ -33,6 +33,9 @@ struct Gas {
       mixture;  // for what is asked seldom; collisions know it from their physics
 };
 
+// So many coming events the calendar of a large gas knows in order, for the event loop to look ahead.
+inline constexpr std::uint32_t foresight = 16;
+
 // Cells and an empty calendar for a gas that has just been synchronized.
 void prepare(Gas& gas);
 

@@ -230,36 +230,34 @@ class SimdSearch {
 
   // The first contact with one of the candidates. `fresh`: the particle's own time is now, so no
   // other's is later and half the work falls away. No branch depends on who touches: a root is
-  // taken of every candidate, of whom one in ten has any, in the shadow of the rest.
+  // taken of every candidate, of whom one in ten has any. Roots take long; those of one vector are
+  // taken after the next one has been begun, so that nothing waits for them.
   template <bool fresh>
   HWY_INLINE Contact first_of(std::uint32_t p, std::size_t count, const std::uint32_t* candidates,
                               double now) {
     const Reals d;
-    const hn::RebindToUnsigned<Reals> names;
-    const V none = hn::Set(d, std::numeric_limits<double>::max());  // before never, which is no tie
-    V first = none;
-    auto who = hn::Set(names, std::uint64_t{p} << Bricks::particle_shift);
-    auto tie = hn::Lt(none, none);
-    for (std::size_t k = 0; k < count; k += hn::MaxLanes(d)) {
-      const V time = contact_times<fresh>(p, candidates + k, now);
-      const auto slots =
-          hn::PromoteTo(names, hn::LoadU(hn::Rebind<std::uint32_t, Reals>(), candidates + k));
-      const auto earlier = hn::Lt(time, first);
-      tie = hn::Or(tie, hn::Eq(time, first));
-      first = hn::IfThenElse(earlier, time, first);
-      who = hn::IfThenElse(hn::RebindMask(names, earlier), slots, who);
+    First first(p);
+    Approach current = meet<fresh>(p, candidates, now);
+    std::size_t k = 0;
+    for (; k + hn::MaxLanes(d) < count; k += hn::MaxLanes(d)) {
+      const Approach next = meet<fresh>(p, candidates + k + hn::MaxLanes(d), now);
+      first.take(current, candidates + k);
+      current = next;
     }
-    const V earliest = hn::MinOfLanes(d, first);
+    first.take(current, candidates + k);
+
+    const V earliest = hn::MinOfLanes(d, first.time);
     std::uint8_t mask = 0;
-    hn::StoreMaskBits(d, hn::Eq(first, earliest), &mask);
+    hn::StoreMaskBits(d, hn::Eq(first.time, earliest), &mask);
     const std::size_t bits = mask;
-    alignas(32) std::uint64_t slot[hn::MaxLanes(Reals())];
-    hn::Store(who, names, slot);
+    alignas(32) std::array<std::uint64_t, hn::MaxLanes(Reals())> slot;
+    hn::Store(first.slot, Names(), slot.data());
     const double time = hn::GetLane(earliest);
-    if (time == std::numeric_limits<double>::max()) return {never, p};
-    if (HWY_UNLIKELY(int{(bits & (bits - 1)) != 0} | int{!hn::AllFalse(d, tie)}))
+    if (HWY_UNLIKELY((int{(bits & (bits - 1)) != 0} & int{time < far}) |
+                     int{!hn::AllFalse(d, first.tie)}))
       return first_by_id(p, count, candidates, now);
-    return {time, Bricks::particle_in(static_cast<std::uint32_t>(slot[std::countr_zero(bits)]))};
+    return {time < far ? time : never,
+            Bricks::particle_in(static_cast<std::uint32_t>(slot[std::countr_zero(bits)]))};
   }
 
   // The same, one candidate after the other: two of them touch at the very same time.
@@ -277,9 +275,13 @@ class SimdSearch {
     return best;
   }
 
-  // When each of the candidates touches, or never.
+  // As many candidates as a vector has lanes, from `start` on.
+  struct Approach {
+    V start, approach, gap, discriminant;
+  };
+
   template <bool fresh>
-  HWY_INLINE V contact_times(std::uint32_t p, const std::uint32_t* candidates, double now) const {
+  HWY_INLINE Approach meet(std::uint32_t p, const std::uint32_t* candidates, double now) const {
     const Reals d;
     const Particle& own = gas_.particles[p];
     const V now_v = hn::Set(d, now);
@@ -307,14 +309,39 @@ class SimdSearch {
     if constexpr (dimension == 3) relative(2, other.z, other.vz, rz, vz);
     const V approach = dot(rx, ry, rz, vx, vy, vz);
     const V gap = hn::Sub(dot(rx, ry, rz, rx, ry, rz), hn::Set(d, 1.0));
-    const V discriminant =
-        hn::Sub(hn::Mul(approach, approach), hn::Mul(dot(vx, vy, vz, vx, vy, vz), gap));
-    const auto touches = hn::And(hn::Lt(approach, hn::Set(d, -smallest_approach)),
-                                 hn::Ge(discriminant, hn::Zero(d)));
-    const V flight =
-        hn::Div(hn::Max(gap, hn::Zero(d)), hn::Sub(hn::Sqrt(discriminant), approach));
-    return hn::IfThenElse(touches, hn::Add(start, flight), hn::Set(d, never));
+    return {start, approach, gap,
+            hn::Sub(hn::Mul(approach, approach), hn::Mul(dot(vx, vy, vz, vx, vy, vz), gap))};
   }
+
+  using Names = hn::RebindToUnsigned<Reals>;
+  static constexpr double far = std::numeric_limits<double>::max();  // later than any contact
+
+  // Of the candidates that have passed each lane, when the first one touches, and its slot.
+  struct First {
+    HWY_INLINE explicit First(std::uint32_t p)
+        : time(hn::Set(Reals(), far)),
+          slot(hn::Set(Names(), std::uint64_t{p} << Bricks::particle_shift)),
+          tie(hn::Lt(time, time)) {}
+
+    HWY_INLINE void take(const Approach& pair, const std::uint32_t* candidates) {
+      const Reals d;
+      const auto touches = hn::And(hn::Lt(pair.approach, hn::Set(d, -smallest_approach)),
+                                   hn::Ge(pair.discriminant, hn::Zero(d)));
+      const V flight = hn::Div(hn::Max(pair.gap, hn::Zero(d)),
+                               hn::Sub(hn::Sqrt(pair.discriminant), pair.approach));
+      const V at = hn::IfThenElse(touches, hn::Add(pair.start, flight), hn::Set(d, never));
+      const auto earlier = hn::Lt(at, time);
+      tie = hn::Or(tie, hn::Eq(at, time));
+      time = hn::IfThenElse(earlier, at, time);
+      slot = hn::IfThenElse(
+          hn::RebindMask(Names(), earlier),
+          hn::PromoteTo(Names(), hn::LoadU(hn::Rebind<std::uint32_t, Reals>(), candidates)), slot);
+    }
+
+    V time;
+    hn::Vec<Names> slot;
+    hn::Mask<Reals> tie;  // whether two touched at the same time
+  };
 
   static HWY_INLINE V dot(V ax, V ay, V az, V bx, V by, V bz) {
     const V planar = hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by));
