@@ -1,8 +1,27 @@
 #include "engine/bricks.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace haff::engine {
+namespace {
+
+using Slots = std::array<std::uint32_t, Bricks::slots>;
+
+// How many slots are taken, and which one holds the entry. No branches, so that the compiler makes
+// vectors of them.
+std::size_t count(const Slots& slot) {
+  std::uint32_t taken = 0;
+  for (const std::uint32_t entry : slot) taken += entry != 0 ? 1 : 0;
+  return taken;
+}
+std::size_t find(const Slots& slot, std::uint32_t entry) {
+  std::uint32_t place = 0;
+  for (std::uint32_t k = 0; k < slot.size(); ++k) place |= slot[k] == entry ? k : 0;
+  return place;
+}
+
+}  // namespace
 
 Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inverse_(box.inverse) {
   if (particles > particle_in(particle_bits))
@@ -47,50 +66,46 @@ Cell Bricks::locate(const Vector& position) const {
 
 void Bricks::insert(std::uint32_t particle, Cell cell) {
   const std::uint32_t brick = brick_of(cell);
-  const std::uint32_t entry = occupied | half_of(cell) << half_shift | particle << particle_shift;
-  for (std::uint32_t& slot : lines_[brick].slot) {
-    if (slot == 0) {
-      slot = entry;
-      return;
-    }
-  }
-  overflow_[brick].push_back(entry);
-}
-
-std::uint32_t& Bricks::find(std::uint32_t brick, std::uint32_t particle) {
-  for (std::uint32_t& slot : lines_[brick].slot)
-    if (particle_in(slot) == particle && slot != 0) return slot;
-  for (std::uint32_t& entry : overflow_.at(brick))
-    if (particle_in(entry) == particle) return entry;
-  __builtin_unreachable();
+  auto& slot = lines_[brick].slot;
+  if (slot.back() == 0)
+    slot[count(slot)] = entry(particle, cell);
+  else
+    overflow_[brick].push_back(entry(particle, cell));
 }
 
 void Bricks::remove(std::uint32_t particle, Cell cell) {
   const std::uint32_t brick = brick_of(cell);
-  std::uint32_t& hole = find(brick, particle);
+  const std::uint32_t gone = entry(particle, cell);
   auto& slot = lines_[brick].slot;
-  if (slot.back() != 0) {
-    if (const auto extra = overflow_.find(brick); extra != overflow_.end()) {
-      hole = extra->second.back();
-      extra->second.pop_back();
-      if (extra->second.empty()) overflow_.erase(extra);
-      return;
-    }
+  auto hole = std::find(slot.begin(), slot.end(), gone);
+  if (const auto extra = overflow_.find(brick); extra != overflow_.end()) {
+    auto& more = extra->second;
+    (hole != slot.end() ? *hole : *std::find(more.begin(), more.end(), gone)) = more.back();
+    more.pop_back();
+    if (more.empty()) overflow_.erase(extra);
+    return;
   }
-  std::uint32_t last = slots - 1;
-  while (slot[last] == 0) --last;
-  hole = slot[last];
+  const std::size_t last = count(slot) - 1;
+  *hole = slot[last];
   slot[last] = 0;
 }
 
 Cell Bricks::cross(std::uint32_t particle, Cell cell, Face face) {
   const Cell to = across(cell, face);
-  if (brick_of(to) == brick_of(cell)) {
-    find(brick_of(cell), particle) ^= 1u << (half_shift + face / 2);
-  } else {
+  auto& left = lines_[brick_of(cell)].slot;
+  auto& entered = lines_[brick_of(to)].slot;
+  if (left.back() != 0 || entered.back() != 0) [[unlikely]] {
     remove(particle, cell);
     insert(particle, to);
+    return to;
   }
+  // Removed and inserted as above, but without a branch: where a particle's slot is, how many there
+  // are and whether the two bricks are one is as good as random.
+  const std::size_t last = count(left) - 1;
+  const std::size_t end = count(entered) - (&left == &entered ? 1 : 0);
+  left[find(left, entry(particle, cell))] = left[last];
+  left[last] = 0;
+  entered[end] = entry(particle, to);
   return to;
 }
 

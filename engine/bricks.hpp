@@ -154,7 +154,9 @@ class Bricks {
   }
   static std::uint32_t like(std::uint32_t half) { return occupied | half << half_shift; }
 
-  std::uint32_t& find(std::uint32_t brick, std::uint32_t particle);
+  static std::uint32_t entry(std::uint32_t particle, Cell cell) {
+    return like(half_of(cell)) | particle << particle_shift;
+  }
   void remove(std::uint32_t particle, Cell cell);
 
   double side_;          // of the box

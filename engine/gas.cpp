@@ -17,7 +17,8 @@ double events_per_time(const Gas& gas) {
 
 void prepare(Gas& gas) {
   gas.bricks.clear();
-  gas.calendar.restart(events_per_time(gas), gas.particles.size() < 1000 ? 0 : foresight);
+  gas.calendar.restart(events_per_time(gas),
+                       gas.particles.size() < worth_prefetching ? 0 : foresight);
   for (std::uint32_t p = 0; p < gas.particles.size(); ++p) {
     gas.calendar[p].cell = gas.bricks.locate(gas.particles[p].position);
     gas.bricks.insert(p, gas.calendar[p].cell);

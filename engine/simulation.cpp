@@ -17,10 +17,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-// From here on a gas is so far beyond the second-level cache that the processor alone cannot hide
-// what it waits for; below, looking ahead costs more than it gains (at 32 000 a fifth).
-constexpr std::size_t worth_prefetching = 50000;
-
 std::unique_ptr<Course> simd_course(const Model& model, const Gas& gas, const State& start) {
   return with_law(model, [&]<class Law>(const Law& law) -> std::unique_ptr<Course> {
     using Physics = SmoothSpheres<Law>;
