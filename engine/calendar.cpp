@@ -34,8 +34,7 @@ void Calendar::restart(double rate, std::uint32_t foresight) {
   first_window_ = 0;
   due_.assign(2, {std::numeric_limits<double>::infinity(), 0});
   head_ = 0;
-  slots_.assign(slots + 1, {});
-  windows_.assign(windows_ahead(events_.size()), {});
+  lists_.assign(slots + 1 + windows_ahead(events_.size()), {});
   chunks_.clear();
   free_chunk_ = none;
   beyond_.clear();
@@ -52,6 +51,22 @@ void Calendar::empty(List& list, const Visit& visit) {
     chunk = next_chunk;
   }
   list = {};
+}
+
+void Calendar::open_chunk(List& list) {
+  std::uint32_t fresh = free_chunk_;
+  if (fresh == none) {
+    fresh = static_cast<std::uint32_t>(chunks_.size());
+    chunks_.emplace_back();
+  } else {
+    free_chunk_ = chunks_[fresh].next;
+  }
+  chunks_[fresh].next = list.chunk;
+  list = {fresh, 0};
+}
+
+void Calendar::add_beyond(std::uint32_t particle) {
+  beyond_.push_back(particle);
 }
 
 void Calendar::add_to_due(double time, std::uint32_t particle) {
@@ -97,7 +112,7 @@ bool Calendar::open_next_slot() {
   for (;;) {
     ++slot_;
     if (slot_ % slots == 0 && !open_next_window()) return false;
-    List& list = slots_[slot_ % slots];
+    List& list = lists_[static_cast<std::size_t>(slot_ % slots)];
     if (list.chunk == none) continue;
     std::size_t count = 0;
     empty(list, [&](std::uint32_t particle) {
@@ -116,13 +131,13 @@ bool Calendar::open_next_slot() {
 bool Calendar::open_next_window() {
   // slot_ is the first of the new window. Skip windows that are empty.
   for (;;) {
-    const std::uint64_t window = slot_ / slots;
-    if (window - first_window_ >= windows_.size()) {
+    const std::int64_t window = slot_ / slots;
+    if (list_of(window) >= lists_.size()) {
       if (beyond_.empty()) return false;
       extend();
       continue;
     }
-    List& list = windows_[window - first_window_];
+    List& list = lists_[list_of(window)];
     if (list.chunk == none) {
       slot_ += slots;
       continue;
@@ -135,10 +150,11 @@ bool Calendar::open_next_window() {
       opened_.push_back(particle);
     });
     for (const std::uint32_t particle : opened_) {
-      const std::uint64_t slot = slot_of(events_[particle].time);
-      append(slots_[slot / slots == window ? slot % slots : slots], particle);
+      const std::int64_t slot = slot_of(events_[particle].time);
+      append(lists_[static_cast<std::size_t>(slot / slots == window ? slot % slots : slots)],
+             particle);
     }
-    empty(slots_[slots], [](std::uint32_t) {});
+    empty(lists_[slots], [](std::uint32_t) {});
     return true;
   }
 }
@@ -151,24 +167,23 @@ void Calendar::extend() {
   for (const std::uint32_t particle : waiting)
     earliest = std::min(earliest, events_[particle].time);
   // An outdated entry's particle has an entry elsewhere too; its time may be long past.
-  if (const std::uint64_t slot = slot_of(earliest); slot > slot_ && slot != no_slot)
+  if (const std::int64_t slot = slot_of(earliest); slot > slot_ && slot != no_slot)
     slot_ = slot / slots * slots;
   first_window_ = slot_ / slots;
-  std::fill(windows_.begin(), windows_.end(), List{});
+  std::fill(lists_.begin() + slots + 1, lists_.end(), List{});
   for (const std::uint32_t particle : waiting) {
-    const std::uint64_t slot = slot_of(events_[particle].time);
+    const std::int64_t slot = slot_of(events_[particle].time);
     if (slot < slot_ || slot == no_slot) continue;  // outdated, or never
-    const std::uint64_t window = slot / slots - first_window_;
-    if (window < windows_.size())
-      append(windows_[window], particle);
+    if (const std::size_t list = list_of(slot / slots); list < lists_.size())
+      append(lists_[list], particle);
     else
-      beyond_.push_back(particle);
+      add_beyond(particle);
   }
 }
 
 std::size_t Calendar::memory() const {
   return events_.capacity() * sizeof(Event) + chunks_.capacity() * sizeof(Chunk) +
-         (windows_.capacity() + slots_.capacity()) * sizeof(List) +
+         lists_.capacity() * sizeof(List) +
          (due_.capacity() + found_.capacity()) * sizeof(Entry) +
          (beyond_.capacity() + opened_.capacity()) * sizeof(std::uint32_t);
 }

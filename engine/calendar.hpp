@@ -65,10 +65,10 @@ class Calendar {
   std::size_t memory() const;
 
  private:
-  static constexpr std::uint32_t slots = 64;  // in a window
+  static constexpr std::int64_t slots = 64;  // in a window
   static constexpr double events_per_slot = 12;
   static constexpr std::uint32_t none = 0xffffffff;
-  static constexpr std::uint64_t no_slot = std::uint64_t{1} << 62;
+  static constexpr std::int64_t no_slot = std::int64_t{1} << 62;
 
   struct Entry {
     double time;
@@ -85,16 +85,22 @@ class Calendar {
   };
 
   // Far beyond any window, and infinity: kept aside, as the conversion would overflow.
-  std::uint64_t slot_of(double time) const {
+  std::int64_t slot_of(double time) const {
     const double slot = time * slots_per_time_;
-    return slot < 0x1p62 ? static_cast<std::uint64_t>(slot) : no_slot;
+    return slot < 0x1p62 ? static_cast<std::int64_t>(slot) : no_slot;
+  }
+  // A window's list; who is in the current window is in its slots' lists.
+  std::size_t list_of(std::int64_t window) const {
+    return slots + 1 + static_cast<std::size_t>(window - first_window_);
   }
   bool outdated(const Entry& entry) const { return events_[entry.particle].time != entry.time; }
   bool only_twins() const;
   void append(List& list, std::uint32_t particle);
+  void open_chunk(List& list);
   template <class Visit>
   void empty(List& list, const Visit& visit);
   void add_to_due(double time, std::uint32_t particle);
+  void add_beyond(std::uint32_t particle);
   void sort_in(std::size_t count);
   bool open_next_slot();    // the next slot with entries; false if there is none
   bool open_next_window();  // false if nothing is left
@@ -106,13 +112,12 @@ class Calendar {
 
   double slots_per_time_ = 0;
   std::uint32_t foresight_ = 0;
-  std::uint64_t slot_ = 0;          // the last one that is due, counted from time zero
-  std::uint64_t first_window_ = 0;  // number of windows_[0]
+  std::int64_t slot_ = 0;          // the last one that is due, counted from time zero
+  std::int64_t first_window_ = 0;  // the first one that has a list
   // In order from head_ on; at the end two that are never due, of particle 0.
   std::vector<Entry> due_;
   std::size_t head_ = 0;
-  std::vector<List> slots_;  // of the current window; the last one is for what belongs to none
-  std::vector<List> windows_;
+  std::vector<List> lists_;  // of slots, one more for what belongs to none, and of windows
   HugeVector<Chunk> chunks_;
   std::uint32_t free_chunk_ = none;
   std::vector<std::uint32_t> opened_;  // particles of a window that is being opened
@@ -121,32 +126,23 @@ class Calendar {
 };
 
 inline void Calendar::append(List& list, std::uint32_t particle) {
-  if (list.count == 15) [[unlikely]] {
-    std::uint32_t fresh = free_chunk_;
-    if (fresh == none) {
-      fresh = static_cast<std::uint32_t>(chunks_.size());
-      chunks_.emplace_back();
-    } else {
-      free_chunk_ = chunks_[fresh].next;
-    }
-    chunks_[fresh].next = list.chunk;
-    list.chunk = fresh;
-    list.count = 0;
-  }
+  if (list.count == 15) [[unlikely]]
+    open_chunk(list);
   chunks_[list.chunk].particle[list.count++] = particle;
 }
 
 inline void Calendar::schedule(std::uint32_t particle) {
   const double time = events_[particle].time;
-  const std::uint64_t slot = slot_of(time);
-  const std::uint64_t window = slot / slots;
-  const bool current = window == slot_ / slots;
+  const std::int64_t slot = slot_of(time);
+  const std::int64_t window = slot / slots;
+  const std::size_t in_window = list_of(window);
+  const std::size_t list = window == slot_ / slots ? static_cast<std::size_t>(slot % slots) : in_window;
   if (slot <= slot_) [[unlikely]]
     add_to_due(time, particle);
-  else if (int{current} | int{window - first_window_ < windows_.size()}) [[likely]]
-    append(current ? slots_[slot % slots] : windows_[window - first_window_], particle);
+  else if (list < lists_.size()) [[likely]]
+    append(lists_[list], particle);
   else
-    beyond_.push_back(particle);
+    add_beyond(particle);
 }
 
 template <class Rank>

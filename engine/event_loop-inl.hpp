@@ -123,9 +123,9 @@ class EventLoop {
     event.partner = earlier ? contact.partner : event.partner;
     event.partner_changes = earlier ? changes : event.partner_changes;
     const Exit exit = search_.exit(p, event.cell, now_);
-    const bool leaves = exit.time < contact_time;
-    event.time = leaves ? exit.time : contact_time;
-    event.face = leaves ? exit.face : Event::contact;
+    const Face touches = 0 - Face{contact_time <= exit.time};  // all ones, or zero
+    event.time = exit.time < contact_time ? exit.time : contact_time;
+    event.face = (exit.face & ~touches) | (Event::contact & touches);
     gas_.calendar.schedule(p);
   }
 

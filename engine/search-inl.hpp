@@ -252,11 +252,11 @@ class SimdSearch {
     const std::size_t bits = mask;
     alignas(32) std::array<std::uint64_t, hn::MaxLanes(Reals())> slot;
     hn::Store(first.slot, Names(), slot.data());
-    const double time = hn::GetLane(earliest);
-    if (HWY_UNLIKELY((int{(bits & (bits - 1)) != 0} & int{time < far}) |
+    const double time = hn::GetLane(hn::IfThenElse(hn::Lt(earliest, hn::Set(d, far)), earliest, hn::Set(d, never)));
+    if (HWY_UNLIKELY((int{(bits & (bits - 1)) != 0} & int{time < never}) |
                      int{!hn::AllFalse(d, first.tie)}))
       return first_by_id(p, count, candidates, now);
-    return {time < far ? time : never,
+    return {time,
             Bricks::particle_in(static_cast<std::uint32_t>(slot[std::countr_zero(bits)]))};
   }
 
