@@ -38,9 +38,9 @@ Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inver
   for (std::uint32_t axis = 0, stride = 1; axis < 3; ++axis, stride *= bricks) {
     const std::uint32_t count = axis == 2 ? layers : bricks;
     for (std::uint32_t c = 0; c < 2 * count; ++c) {
-      const std::uint32_t own = c / 2;
-      const std::uint32_t next = (own + (c % 2 == 1 ? 1 : count - 1)) % count;
-      shares_[axis].push_back({own * stride, next * stride});
+      const std::uint32_t brick = c / 2;
+      const std::uint32_t next = (brick + (c % 2 == 1 ? 1 : count - 1)) % count;
+      shares_[axis].push_back({brick * stride, next * stride});
     }
   }
   for (std::uint32_t n = 0; n < 8; ++n) care_around_[n].fill(care_around(n));

@@ -132,8 +132,8 @@ class Bricks {
   };
   const Share& along(Cell cell, unsigned axis) const { return shares_[axis][cell[axis]]; }
 
-  // In which half of its brick a cell is along x, y and z: the lowest bits of its coordinates, which
-  // the product puts side by side.
+  // In which half of its brick a cell is along x, y and z: the lowest bits of its coordinates,
+  // which the product puts side by side.
   static std::uint32_t half_of(Cell cell) {
     constexpr std::uint32_t lowest = 1 | 1 << 10 | 1 << 20;
     return (cell.packed & lowest) * (1 << 20 | 1 << 11 | 1 << 2) >> 20 & 7;
@@ -214,7 +214,9 @@ template <int d>
     return {{c + a, c + na}, wanted, care_beyond_[axis].data()};
   } else {
     const auto [b, nb] = along(layer, axis == 2 ? 1 : 2);
-    return {{a + (c + b), na + (c + b), a + (c + nb), na + (c + nb)}, wanted, care_beyond_[axis].data()};
+    return {{a + (c + b), na + (c + b), a + (c + nb), na + (c + nb)},
+            wanted,
+            care_beyond_[axis].data()};
   }
 }
 

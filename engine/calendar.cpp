@@ -183,8 +183,7 @@ void Calendar::extend() {
 
 std::size_t Calendar::memory() const {
   return events_.capacity() * sizeof(Event) + chunks_.capacity() * sizeof(Chunk) +
-         lists_.capacity() * sizeof(List) +
-         (due_.capacity() + found_.capacity()) * sizeof(Entry) +
+         lists_.capacity() * sizeof(List) + (due_.capacity() + found_.capacity()) * sizeof(Entry) +
          (beyond_.capacity() + opened_.capacity()) * sizeof(std::uint32_t);
 }
 

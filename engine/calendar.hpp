@@ -1,12 +1,12 @@
 // Every particle's next event, and which of them comes first.
 //
 // A ladder: time since the synchronization is cut into windows, a window into slots, a slot holds a
-// dozen events. An event in a later slot is one 4-byte particle number appended to that slot's list,
-// one in a later window to that window's. When a window's turn comes its events go to its slots;
-// when a slot's turn comes its events are sorted, all at once and without a branch (what is sooner
-// is as good as random: a heap, or lists of one or two, are predicted wrong several times an event),
-// and are due. Nothing is ever deleted: an entry whose particle has been given another time since is
-// dropped when met. So the hot part stays in cache however many particles there are.
+// dozen events. An event in a later slot is one 4-byte particle number appended to that slot's
+// list, one in a later window to that window's. When a window's turn comes its events go to its
+// slots; when a slot's turn comes its events are sorted, all at once and without a branch (what is
+// sooner is as good as random: a heap, or lists of one or two, are predicted wrong several times an
+// event), and are due. Nothing is ever deleted: an entry whose particle has been given another time
+// since is dropped when met. So the hot part stays in cache however many particles there are.
 #pragma once
 
 #include <algorithm>
@@ -136,7 +136,8 @@ inline void Calendar::schedule(std::uint32_t particle) {
   const std::int64_t slot = slot_of(time);
   const std::int64_t window = slot / slots;
   const std::size_t in_window = list_of(window);
-  const std::size_t list = window == slot_ / slots ? static_cast<std::size_t>(slot % slots) : in_window;
+  const std::size_t list =
+      window == slot_ / slots ? static_cast<std::size_t>(slot % slots) : in_window;
   if (slot <= slot_) [[unlikely]]
     add_to_due(time, particle);
   else if (list < lists_.size()) [[likely]]

@@ -115,8 +115,7 @@ class EventLoop {
   // Choices, not branches: all of these are as good as random.
   void update(std::uint32_t p, const Contact& contact) {
     Event& event = gas_.calendar[p];
-    const bool earlier =
-        comes_before(contact, {event.contact_time, event.partner}, gas_.particles);
+    const bool earlier = comes_before(contact, {event.contact_time, event.partner}, gas_.particles);
     const std::uint32_t changes = gas_.particles[contact.partner].changes;
     const double contact_time = earlier ? contact.time : event.contact_time;
     event.contact_time = contact_time;
@@ -155,8 +154,8 @@ class EventLoop {
       search_.prefetch_particles_beyond(event.cell, event.face);
     }
     if (!huge_) return;
-    if (const Event& event = coming(stride); event.face == Event::contact &&
-                                             gas_.calendar[event.partner].cell != event.cell)
+    if (const Event& event = coming(stride);
+        event.face == Event::contact && gas_.calendar[event.partner].cell != event.cell)
       search_.prefetch_particles_around(gas_.calendar[event.partner].cell);
   }
   const Event& coming(std::uint32_t places) const {

@@ -34,8 +34,8 @@ struct Gas {
 };
 
 // From here on a gas is so far beyond the second-level cache that the processor alone cannot hide
-// what it waits for; below, looking ahead costs more than it gains (a sixth at 4000). So many events
-// the calendar then knows in order; from 8 to 32 the rate is flat.
+// what it waits for; below, looking ahead costs more than it gains (a sixth at 4000). So many
+// events the calendar then knows in order; from 8 to 32 the rate is flat.
 inline constexpr std::size_t worth_prefetching = 20000;
 inline constexpr std::uint32_t foresight = 12;
 

@@ -184,8 +184,8 @@ class SimdSearch {
       hn::StoreMaskBits(d, hn::Eq(differ, hn::Zero(d)), &mask);
       const std::size_t bits = mask;
       const auto lanes = hn::IndicesFromVec(
-          d,
-          hn::PromoteTo(d, hn::Load(hn::Rebind<std::uint8_t, Slots>(), compress_table.lanes[bits])));
+          d, hn::PromoteTo(
+                 d, hn::Load(hn::Rebind<std::uint8_t, Slots>(), compress_table.lanes[bits])));
       hn::StoreU(hn::TableLookupLanes(slots, lanes), d, to + count);
       count += static_cast<std::size_t>(std::popcount(bits));
     }
@@ -206,8 +206,9 @@ class SimdSearch {
         __attribute__((always_inline)) {
       // Of each record two neighbouring doubles; records 0, 2 and 1, 3 share a vector.
       const auto at = [&](std::size_t lane) HWY_ATTR {
-        return hn::Load(hn::FixedTag<double, 2>(),
-                        reinterpret_cast<const double*>(all + (candidate[lane] & Bricks::particle_bits)) + k);
+        return hn::Load(
+            hn::FixedTag<double, 2>(),
+            reinterpret_cast<const double*>(all + (candidate[lane] & Bricks::particle_bits)) + k);
       };
 #if HWY_CAP_GE256
       const V even = hn::Combine(d, at(2), at(0));
@@ -252,12 +253,12 @@ class SimdSearch {
     const std::size_t bits = mask;
     alignas(32) std::array<std::uint64_t, hn::MaxLanes(Reals())> slot;
     hn::Store(first.slot, Names(), slot.data());
-    const double time = hn::GetLane(hn::IfThenElse(hn::Lt(earliest, hn::Set(d, far)), earliest, hn::Set(d, never)));
+    const double time =
+        hn::GetLane(hn::IfThenElse(hn::Lt(earliest, hn::Set(d, far)), earliest, hn::Set(d, never)));
     if (HWY_UNLIKELY((int{(bits & (bits - 1)) != 0} & int{time < never}) |
                      int{!hn::AllFalse(d, first.tie)}))
       return first_by_id(p, count, candidates, now);
-    return {time,
-            Bricks::particle_in(static_cast<std::uint32_t>(slot[std::countr_zero(bits)]))};
+    return {time, Bricks::particle_in(static_cast<std::uint32_t>(slot[std::countr_zero(bits)]))};
   }
 
   // The same, one candidate after the other: two of them touch at the very same time.
