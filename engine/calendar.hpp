@@ -55,7 +55,12 @@ class Calendar {
   std::uint32_t next(Rank&& rank);
 
   // The particle's next entry is void. Only a hint, and heeded only if it is the very next.
-  void forget(std::uint32_t particle) { head_ += due_[head_].particle == particle; }
+  void forget(std::uint32_t particle) {
+    const Entry& entry = due_[head_];
+    head_ += static_cast<std::size_t>(
+        int{entry.particle == particle} &
+        int{entry.time < std::numeric_limits<double>::infinity()});  // not the end itself
+  }
 
   // Whose event comes so many places later, as far as is known now; at the end, any particle.
   std::uint32_t coming(std::uint32_t places) const {

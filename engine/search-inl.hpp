@@ -258,7 +258,8 @@ class SimdSearch {
     if (HWY_UNLIKELY((int{(bits & (bits - 1)) != 0} & int{time < never}) |
                      int{!hn::AllFalse(d, first.tie)}))
       return first_by_id(p, count, candidates, now);
-    return {time, Bricks::particle_in(static_cast<std::uint32_t>(slot[std::countr_zero(bits)]))};
+    return {time, Bricks::particle_in(static_cast<std::uint32_t>(
+                      slot[static_cast<std::size_t>(std::countr_zero(bits))]))};
   }
 
   // The same, one candidate after the other: two of them touch at the very same time.

@@ -69,3 +69,17 @@ TEST_CASE("an event set again to the time it had comes out once") {
   set(calendar, 0, never);
   CHECK(calendar.next(by_number) == 1);
 }
+
+TEST_CASE("a forgotten entry does not come out, and at the end there is nothing to forget") {
+  Calendar calendar(3);
+  calendar.restart(3);
+  for (const std::uint32_t p : {0u, 1u, 2u}) set(calendar, p, 0.5 + 0.01 * p);
+  CHECK(calendar.next(by_number) == 0);
+  set(calendar, 0, never);
+  calendar.forget(1);
+  set(calendar, 1, never);
+  CHECK(calendar.next(by_number) == 2);
+  set(calendar, 2, never);
+  for (const std::uint32_t p : {0u, 1u, 2u}) calendar.forget(p);
+  CHECK(calendar.next(by_number) == Calendar::nobody);
+}
