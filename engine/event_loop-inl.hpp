@@ -22,7 +22,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-// `prefetching`: fetch into cache what coming events will touch. Pays beyond some 50 000 particles.
+// `prefetching`: fetch into cache what coming events will touch (worth_prefetching, gas.hpp).
 template <class Search, class Physics, bool prefetching = false>
 class EventLoop {
  public:

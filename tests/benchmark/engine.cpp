@@ -80,15 +80,19 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   const auto prediction = scalar ? engine::Prediction::scalar : engine::Prediction::simd;
-  engine::State start = engine::initial_state(n, particles, seed, d);
+  const engine::Model asked = model(e, seed, effects);
+  engine::State start = engine::initial_state(n, particles, seed, d, asked.effects);
   if (warmup > 0) {
     // A state exists only at a synchronization.
     const double period = engine::synchronization_period;
-    engine::Simulation melting({.restitution = 1}, start, prediction);
+    engine::Model elastic{.restitution = 1};
+    if (const auto mixture = asked.effects.find("mixture"); mixture != asked.effects.end())
+      elastic.effects.insert(*mixture);
+    engine::Simulation melting(elastic, start, prediction);
     melting.run_to(engine::collisions_at(period * std::ceil(warmup / period), particles));
     start = engine::restarted(melting.state());
   }
-  engine::Simulation gas(model(e, seed, effects), start, prediction);
+  engine::Simulation gas(asked, start, prediction);
   start = {};
   const auto begin = std::chrono::steady_clock::now();
   gas.run_to(engine::collisions_at(tau, particles));
