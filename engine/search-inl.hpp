@@ -140,13 +140,16 @@ class SimdSearch {
   template <class Where>
   HWY_INLINE std::size_t gather(std::uint32_t p, const Where& where, List& list) {
     const auto wanted = where();
+    // Known to stay: the compiler would read them again after every store.
+    const Bricks::Line* const lines = &gas_.bricks.line(0);
+    std::uint32_t* const to = list.data();
     std::size_t count = 0;
     std::uint32_t more = 0;  // slots are filled from the front
 #pragma GCC unroll 8
     for (std::size_t n = 0; n < wanted.brick.size(); ++n) {
-      const auto& line = gas_.bricks.line(wanted.brick[n]);
-      count += take_half(line.slot.data(), wanted.like, wanted.care[n], list.data() + count);
-      more |= line.slot[8];
+      const auto& slot = lines[wanted.brick[n]].slot;
+      count += take_half(slot.data(), wanted.like, wanted.care[n], to + count);
+      more |= slot[8];
     }
     if (HWY_UNLIKELY(more != 0)) count = gather_rest(where, list, count);
     const Slots d;
