@@ -151,7 +151,7 @@ bool Calendar::open_next_window() {
     });
     for (const std::uint32_t particle : opened_) {
       const std::int64_t slot = slot_of(events_[particle].time);
-      append(lists_[static_cast<std::size_t>(slot / slots == window ? slot % slots : slots)],
+      append(lists_[static_cast<std::size_t>(choose(slot / slots == window, slot % slots, slots))],
              particle);
     }
     empty(lists_[slots], [](std::uint32_t) {});

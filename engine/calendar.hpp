@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/bricks.hpp"
+#include "engine/choose.hpp"
 #include "engine/memory.hpp"
 
 namespace haff::engine {
@@ -140,9 +141,7 @@ inline void Calendar::schedule(std::uint32_t particle) {
   const double time = events_[particle].time;
   const std::int64_t slot = slot_of(time);
   const std::int64_t window = slot / slots;
-  const std::size_t in_window = list_of(window);
-  const std::size_t list =
-      window == slot_ / slots ? static_cast<std::size_t>(slot % slots) : in_window;
+  const std::size_t list = choose(window == slot_ / slots, static_cast<std::size_t>(slot % slots), list_of(window));
   if (slot <= slot_) [[unlikely]]
     add_to_due(time, particle);
   else if (list < lists_.size()) [[likely]]
@@ -163,7 +162,7 @@ std::uint32_t Calendar::next(Rank&& rank) {
       ++head_;
       continue;
     }
-    if (int{due_[head_ + 1].time == first.time} & int{!only_twins()}) [[unlikely]]
+    if (all_of(due_[head_ + 1].time == first.time, !only_twins())) [[unlikely]]
       return settle_tie(rank);
     ++head_;
     return first.particle;
@@ -175,8 +174,8 @@ inline bool Calendar::only_twins() const {
   const Entry* const due = due_.data() + head_;
   const Event& one = events_[due[0].particle];
   const Event& other = events_[due[1].particle];
-  return int{one.partner == due[1].particle} & int{other.partner == due[0].particle} &
-         int{(one.face & other.face) == Event::contact} & int{due[2].time != due[0].time};
+  return all_of(one.partner == due[1].particle, other.partner == due[0].particle,
+                (one.face & other.face) == Event::contact, due[2].time != due[0].time);
 }
 
 template <class Rank>

@@ -77,10 +77,8 @@ class EventLoop {
       watch(p, q, std::min(p_time, q_time));
     const auto [first, second] =
         search_.around_both(p, gas_.calendar[p].cell, q, gas_.calendar[q].cell);
-    gas_.calendar[p].contact_time = never;
-    gas_.calendar[q].contact_time = never;
-    update(p, first);
-    update(q, second);
+    expect(p, first);
+    expect(q, second);
   }
 
   [[gnu::noinline]] void watch(std::uint32_t p, std::uint32_t q, double since) {
@@ -93,7 +91,14 @@ class EventLoop {
     ++gas_.events.crossings;
     Event& event = gas_.calendar[p];
     event.cell = gas_.bricks.cross(p, event.cell, event.face);
-    update(p, search_.beyond(p, event.cell, event.face, now_));
+    const Contact contact = search_.beyond(p, event.cell, event.face, now_);
+    const Contact known{event.contact_time, event.partner};
+    const std::uint32_t changes = gas_.particles[contact.partner].changes;
+    const bool earlier = comes_before(contact, known, gas_.particles);
+    event.contact_time = choose(earlier, contact.time, known.time);
+    event.partner = choose(earlier, contact.partner, known.partner);
+    event.partner_changes = choose(earlier, changes, event.partner_changes);
+    schedule(p);
   }
 
   void look_again(std::uint32_t p) {
@@ -102,29 +107,29 @@ class EventLoop {
   }
 
   void predict(std::uint32_t p) {
-    gas_.calendar[p].contact_time = never;
-    update(p, search_.around(p, gas_.calendar[p].cell, now_));
+    expect(p, search_.around(p, gas_.calendar[p].cell, now_));
   }
 
   // The same for a particle whose record is of this very moment.
   void predict_fresh(std::uint32_t p) {
-    gas_.calendar[p].contact_time = never;
-    update(p, search_.around_fresh(p, gas_.calendar[p].cell));
+    expect(p, search_.around_fresh(p, gas_.calendar[p].cell));
   }
 
-  // Choices, not branches: all of these are as good as random.
-  void update(std::uint32_t p, const Contact& contact) {
+  // Of all who are near p the first to touch it is this one.
+  void expect(std::uint32_t p, const Contact& contact) {
     Event& event = gas_.calendar[p];
-    const bool earlier = comes_before(contact, {event.contact_time, event.partner}, gas_.particles);
-    const std::uint32_t changes = gas_.particles[contact.partner].changes;
-    const double contact_time = earlier ? contact.time : event.contact_time;
-    event.contact_time = contact_time;
-    event.partner = earlier ? contact.partner : event.partner;
-    event.partner_changes = earlier ? changes : event.partner_changes;
+    event.contact_time = contact.time;
+    event.partner = contact.partner;
+    event.partner_changes = gas_.particles[contact.partner].changes;
+    schedule(p);
+  }
+
+  // p touches its partner, or leaves its cell.
+  void schedule(std::uint32_t p) {
+    Event& event = gas_.calendar[p];
     const Exit exit = search_.exit(p, event.cell, now_);
-    const Face touches = 0 - Face{contact_time <= exit.time};  // all ones, or zero
-    event.time = exit.time < contact_time ? exit.time : contact_time;
-    event.face = (exit.face & ~touches) | (Event::contact & touches);
+    event.time = std::min(event.contact_time, exit.time);
+    event.face = choose(event.contact_time <= exit.time, Event::contact, exit.face);
     gas_.calendar.schedule(p);
   }
 

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/choose.hpp"
 #include "engine/contact.hpp"
 #include "engine/gas.hpp"
 
@@ -32,7 +33,7 @@ inline constexpr CompressTable compress_table;
 inline bool comes_before(const Contact& one, const Contact& other,
                          const HugeVector<Particle>& particles) {
   bool earlier = one.time < other.time;
-  if (int{one.time == other.time} & int{one.time < never}) [[unlikely]]
+  if (all_of(one.time == other.time, one.time < never)) [[unlikely]]
     earlier = particles[one.partner].id < particles[other.partner].id;
   return earlier;
 }
