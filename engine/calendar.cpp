@@ -43,7 +43,7 @@ void Calendar::restart(double rate, std::uint32_t foresight) {
 template <class Visit>
 void Calendar::empty(List& list, const Visit& visit) {
   std::uint32_t count = list.count;
-  for (std::uint32_t chunk = list.chunk; chunk != none; count = 15) {
+  for (std::uint32_t chunk = list.chunk; chunk != none; count = in_chunk) {
     for (std::uint32_t k = 0; k < count; ++k) visit(chunks_[chunk].particle[k]);
     const std::uint32_t next_chunk = chunks_[chunk].next;
     chunks_[chunk].next = free_chunk_;

@@ -80,14 +80,15 @@ class Calendar {
     double time;
     std::uint32_t particle;
   };
-  // Particles in cache lines of 15; `next` is the chunk filled before.
+  static constexpr std::uint32_t in_chunk = 31;
+  // Particles; `next` is the chunk filled before.
   struct alignas(64) Chunk {
-    std::uint32_t particle[15];
+    std::uint32_t particle[in_chunk];
     std::uint32_t next;
   };
   struct List {
     std::uint32_t chunk = none;
-    std::uint32_t count = 15;  // in the newest chunk; a full one makes the next append open another
+    std::uint32_t count = in_chunk;  // in the newest chunk; a full one makes the next append open another
   };
 
   // Far beyond any window, and infinity: kept aside, as the conversion would overflow.
@@ -132,7 +133,7 @@ class Calendar {
 };
 
 inline void Calendar::append(List& list, std::uint32_t particle) {
-  if (list.count == 15) [[unlikely]]
+  if (list.count == in_chunk) [[unlikely]]
     open_chunk(list);
   chunks_[list.chunk].particle[list.count++] = particle;
 }
