@@ -34,7 +34,7 @@ void Calendar::restart(double rate, std::uint32_t foresight) {
   first_window_ = 0;
   due_.assign(2, {std::numeric_limits<double>::infinity(), 0});
   head_ = 0;
-  lists_.assign(slots + 1 + windows_ahead(events_.size()), {});
+  lists_.assign(slots() + 1 + windows_ahead(events_.size()), {});
   chunks_.clear();
   free_chunk_ = none;
   beyond_.clear();
@@ -111,8 +111,8 @@ bool Calendar::open_next_slot() {
   head_ = 0;
   for (;;) {
     ++slot_;
-    if (slot_ % slots == 0 && !open_next_window()) return false;
-    List& list = lists_[static_cast<std::size_t>(slot_ % slots)];
+    if (in_window(slot_) == 0 && !open_next_window()) return false;
+    List& list = lists_[in_window(slot_)];
     if (list.chunk == none) continue;
     std::size_t count = 0;
     empty(list, [&](std::uint32_t particle) {
@@ -131,7 +131,7 @@ bool Calendar::open_next_slot() {
 bool Calendar::open_next_window() {
   // slot_ is the first of the new window. Skip windows that are empty.
   for (;;) {
-    const std::int64_t window = slot_ / slots;
+    const Slot window = window_of(slot_);
     if (list_of(window) >= lists_.size()) {
       if (beyond_.empty()) return false;
       extend();
@@ -139,7 +139,7 @@ bool Calendar::open_next_window() {
     }
     List& list = lists_[list_of(window)];
     if (list.chunk == none) {
-      slot_ += slots;
+      slot_ += slots();
       continue;
     }
     // Their events are all over memory: fetched all before the first is needed, they take a third
@@ -150,11 +150,11 @@ bool Calendar::open_next_window() {
       opened_.push_back(particle);
     });
     for (const std::uint32_t particle : opened_) {
-      const std::int64_t slot = slot_of(events_[particle].time);
-      append(lists_[static_cast<std::size_t>(choose(slot / slots == window, slot % slots, slots))],
+      const Slot slot = slot_of(events_[particle].time);
+      append(lists_[choose(window_of(slot) == window, in_window(slot), slots())],
              particle);
     }
-    empty(lists_[slots], [](std::uint32_t) {});
+    empty(lists_[slots()], [](std::uint32_t) {});
     return true;
   }
 }
@@ -167,14 +167,14 @@ void Calendar::extend() {
   for (const std::uint32_t particle : waiting)
     earliest = std::min(earliest, events_[particle].time);
   // An outdated entry's particle has an entry elsewhere too; its time may be long past.
-  if (const std::int64_t slot = slot_of(earliest); slot > slot_ && slot != no_slot)
-    slot_ = slot / slots * slots;
-  first_window_ = slot_ / slots;
-  std::fill(lists_.begin() + slots + 1, lists_.end(), List{});
+  if (const Slot slot = slot_of(earliest); slot > slot_ && slot != no_slot)
+    slot_ = slot - in_window(slot);
+  first_window_ = window_of(slot_);
+  std::fill(lists_.begin() + static_cast<std::ptrdiff_t>(slots()) + 1, lists_.end(), List{});
   for (const std::uint32_t particle : waiting) {
-    const std::int64_t slot = slot_of(events_[particle].time);
+    const Slot slot = slot_of(events_[particle].time);
     if (slot < slot_ || slot == no_slot) continue;  // outdated, or never
-    if (const std::size_t list = list_of(slot / slots); list < lists_.size())
+    if (const std::size_t list = list_of(window_of(slot)); list < lists_.size())
       append(lists_[list], particle);
     else
       add_beyond(particle);

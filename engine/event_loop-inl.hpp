@@ -59,9 +59,10 @@ class EventLoop {
     gas_.clock.collisions = collisions_;
   }
 
-  // Everybody's first event, after a synchronization.
+  // Everybody's first event, after a synchronization. It is enough that one of two sees the other.
   void predict_all() {
-    for (std::uint32_t p = 0; p < gas_.particles.size(); ++p) predict_fresh(p);
+    for (std::uint32_t p = 0; p < gas_.particles.size(); ++p)
+      expect(p, search_.around_higher(p, gas_.calendar[p].cell));
   }
 
  private:
@@ -103,16 +104,7 @@ class EventLoop {
 
   void look_again(std::uint32_t p) {
     ++gas_.events.stale;
-    predict(p);
-  }
-
-  void predict(std::uint32_t p) {
     expect(p, search_.around(p, gas_.calendar[p].cell, now_));
-  }
-
-  // The same for a particle whose record is of this very moment.
-  void predict_fresh(std::uint32_t p) {
-    expect(p, search_.around_fresh(p, gas_.calendar[p].cell));
   }
 
   // Of all who are near p the first to touch it is this one.

@@ -37,8 +37,8 @@ class SimdSearch {
     const std::size_t count = gather(p, around(cell), list_);
     return first_of<false>(p, count, list_.data(), now);
   }
-  HWY_INLINE Contact around_fresh(std::uint32_t p, Cell cell) {
-    const std::size_t count = gather(p, around(cell), list_);
+  HWY_INLINE Contact around_higher(std::uint32_t p, Cell cell) {
+    const std::size_t count = gather<true>(p, around(cell), list_);
     return first_of<true>(p, count, list_.data(), gas_.particles[p].time);
   }
   HWY_INLINE Contact beyond(std::uint32_t p, Cell cell, Face face, double now) {
@@ -136,8 +136,8 @@ class SimdSearch {
   using List = std::vector<std::uint32_t>;
 
   // The slots where to look, as they are; after the last one, that of p itself (nobody touches
-  // itself) to fill a vector.
-  template <class Where>
+  // itself) to fill a vector. `higher`: only of particles with higher numbers.
+  template <bool higher = false, class Where>
   HWY_INLINE std::size_t gather(std::uint32_t p, const Where& where, List& list) {
     const auto wanted = where();
     // Known to stay: the compiler would read them again after every store.
@@ -148,26 +148,28 @@ class SimdSearch {
 #pragma GCC unroll 8
     for (std::size_t n = 0; n < wanted.brick.size(); ++n) {
       const auto& slot = lines[wanted.brick[n]].slot;
-      count += take_half(slot.data(), wanted.like, wanted.care[n], to + count);
+      count += take_half<higher>(p, slot.data(), wanted.like, wanted.care[n], to + count);
       more |= slot[8];
     }
-    if (HWY_UNLIKELY(more != 0)) count = gather_rest(where, list, count);
+    if (HWY_UNLIKELY(more != 0)) count = gather_rest<higher>(p, where, list, count);
     const Slots d;
     hn::StoreU(hn::Set(d, p << Bricks::particle_shift), d, list.data() + count);
     return count;
   }
 
   // The second halves, and what overflows.
-  template <class Where>
-  HWY_NOINLINE std::size_t gather_rest(Where where, List& list, std::size_t count) {
+  template <bool higher, class Where>
+  HWY_NOINLINE std::size_t gather_rest(std::uint32_t p, Where where, List& list,
+                                       std::size_t count) {
     const auto wanted = where();
     for (std::size_t n = 0; n < wanted.brick.size(); ++n) {
       const auto& slot = gas_.bricks.line(wanted.brick[n]).slot;
       if (slot[8] != 0)
-        count += take_half(slot.data() + 8, wanted.like, wanted.care[n], list.data() + count);
+        count += take_half<higher>(p, slot.data() + 8, wanted.like, wanted.care[n],
+                                   list.data() + count);
       if (HWY_LIKELY(slot[15] == 0)) continue;
       for (const std::uint32_t extra : gas_.bricks.overflow(wanted.brick[n])) {
-        if (!wanted.holds(n, extra)) continue;
+        if (!wanted.holds(n, extra) || (higher && Bricks::particle_in(extra) < p)) continue;
         list[count++] = extra;
         if (list.size() < count + 8 * Bricks::slots + slack) list.resize(2 * list.size());
       }
@@ -176,15 +178,19 @@ class SimdSearch {
   }
 
   // Those of eight slots that are wanted, and how many.
-  HWY_INLINE std::size_t take_half(const std::uint32_t* slot, std::uint32_t like,
+  template <bool higher>
+  HWY_INLINE std::size_t take_half(std::uint32_t p, const std::uint32_t* slot, std::uint32_t like,
                                    const Bricks::Care& care, std::uint32_t* to) const {
     const Slots d;
     std::size_t count = 0;
     for (std::size_t k = 0; k < 8; k += hn::MaxLanes(d)) {
       const auto slots = hn::Load(d, slot + k);
       const auto differ = hn::And(hn::Xor(slots, hn::Set(d, like)), hn::Load(d, care.data()));
+      auto wanted = hn::Eq(differ, hn::Zero(d));
+      if constexpr (higher)
+        wanted = hn::And(wanted, hn::Gt(slots, hn::Set(d, p << Bricks::particle_shift | 15)));
       std::uint8_t mask = 0;
-      hn::StoreMaskBits(d, hn::Eq(differ, hn::Zero(d)), &mask);
+      hn::StoreMaskBits(d, wanted, &mask);
       const std::size_t bits = mask;
       const auto lanes = hn::IndicesFromVec(
           d, hn::PromoteTo(

@@ -93,12 +93,14 @@ class PlainSearch {
   Contact around(std::uint32_t p, Cell cell, double now) const {
     return first_in(p, gas_.bricks.around<d>(cell), now);
   }
-  Contact around_fresh(std::uint32_t p, Cell cell) const {
-    return around(p, cell, gas_.particles[p].time);
+  // Only among those of higher numbers, by a particle whose record is of this very moment.
+  Contact around_higher(std::uint32_t p, Cell cell) const {
+    return first_in(p, gas_.bricks.around<d>(cell), gas_.particles[p].time, p + 1);
   }
   std::pair<Contact, Contact> around_both(std::uint32_t p, Cell p_cell, std::uint32_t q,
                                           Cell q_cell) const {
-    return {around_fresh(p, p_cell), around_fresh(q, q_cell)};
+    const double now = gas_.particles[p].time;
+    return {around(p, p_cell, now), around(q, q_cell, now)};
   }
   Contact beyond(std::uint32_t p, Cell cell, Face face, double now) const {
     return first_in(p, gas_.bricks.beyond<d>(cell, face), now);
@@ -113,10 +115,11 @@ class PlainSearch {
 
  private:
   template <std::size_t count>
-  Contact first_in(std::uint32_t p, const Bricks::Wanted<count>& wanted, double now) const {
+  Contact first_in(std::uint32_t p, const Bricks::Wanted<count>& wanted, double now,
+                   std::uint32_t lowest = 0) const {
     Contact best;
     Candidates::template visit<d>(gas_, wanted, [&](std::uint32_t q, const Vector& image) {
-      if (q == p) return;
+      if (q == p || q < lowest) return;
       const Particle& own = gas_.particles[p];
       const Particle& other = gas_.particles[q];
       const Encounter pair(own, other, now, gas_.box, image);
