@@ -4,24 +4,6 @@
 #include <stdexcept>
 
 namespace haff::engine {
-namespace {
-
-using Slots = std::array<std::uint32_t, Bricks::slots>;
-
-// How many slots are taken, and which one holds the entry. No branches, so that the compiler makes
-// vectors of them.
-std::size_t count(const Slots& slot) {
-  std::uint32_t taken = 0;
-  for (const std::uint32_t entry : slot) taken += entry != 0 ? 1 : 0;
-  return taken;
-}
-std::size_t find(const Slots& slot, std::uint32_t entry) {
-  std::uint32_t place = 0;
-  for (std::uint32_t k = 0; k < slot.size(); ++k) place |= slot[k] == entry ? k : 0;
-  return place;
-}
-
-}  // namespace
 
 Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inverse_(box.inverse) {
   if (particles > particle_in(particle_bits))
@@ -68,7 +50,7 @@ void Bricks::insert(std::uint32_t particle, Cell cell) {
   const std::uint32_t brick = brick_of(cell);
   auto& slot = lines_[brick].slot;
   if (slot.back() == 0)
-    slot[count(slot)] = entry(particle, cell);
+    slot[taken(slot)] = entry(particle, cell);
   else
     overflow_[brick].push_back(entry(particle, cell));
 }
@@ -85,28 +67,9 @@ void Bricks::remove(std::uint32_t particle, Cell cell) {
     if (more.empty()) overflow_.erase(extra);
     return;
   }
-  const std::size_t last = count(slot) - 1;
+  const std::size_t last = taken(slot) - 1;
   *hole = slot[last];
   slot[last] = 0;
-}
-
-Cell Bricks::cross(std::uint32_t particle, Cell cell, Face face) {
-  const Cell to = across(cell, face);
-  auto& left = lines_[brick_of(cell)].slot;
-  auto& entered = lines_[brick_of(to)].slot;
-  if (left.back() != 0 || entered.back() != 0) [[unlikely]] {
-    remove(particle, cell);
-    insert(particle, to);
-    return to;
-  }
-  // Removed and inserted as above, but without a branch: where a particle's slot is, how many there
-  // are and whether the two bricks are one is as good as random.
-  const std::size_t last = count(left) - 1;
-  const std::size_t end = count(entered) - (&left == &entered ? 1 : 0);
-  left[find(left, entry(particle, cell))] = left[last];
-  left[last] = 0;
-  entered[end] = entry(particle, to);
-  return to;
 }
 
 const std::vector<std::uint32_t>& Bricks::overflow(std::uint32_t brick) const {

@@ -55,7 +55,7 @@ class Bricks {
   static constexpr std::uint32_t particle_in(std::uint32_t slot) { return slot >> particle_shift; }
 
   struct alignas(64) Line {
-    std::array<std::uint32_t, slots> slot;  // 0 where empty
+    std::array<std::uint32_t, slots> slot;  // filled from the front; 0 where empty
   };
 
   // The bits of a slot that matter, once for each slot of half a line: a vector can take them.
@@ -159,6 +159,20 @@ class Bricks {
   }
   void remove(std::uint32_t particle, Cell cell);
 
+  using Slots = std::array<std::uint32_t, slots>;
+  // How many slots are taken, and which one holds the entry. No branches, so that the compiler
+  // makes vectors of them.
+  [[gnu::always_inline]] static std::size_t taken(const Slots& slot) {
+    std::uint32_t count = 0;
+    for (const std::uint32_t entry : slot) count += entry != 0 ? 1 : 0;
+    return count;
+  }
+  [[gnu::always_inline]] static std::size_t place_of(std::uint32_t entry, const Slots& slot) {
+    std::uint32_t place = 0;
+    for (std::uint32_t k = 0; k < slots; ++k) place |= slot[k] == entry ? k : 0;
+    return place;
+  }
+
   double side_;          // of the box
   double inverse_;       // of that
   std::uint32_t cells_;  // along an axis, even
@@ -170,6 +184,25 @@ class Bricks {
   HugeVector<Line> lines_;
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> overflow_;
 };
+
+[[gnu::always_inline]] inline Cell Bricks::cross(std::uint32_t particle, Cell cell, Face face) {
+  const Cell to = across(cell, face);
+  auto& left = lines_[brick_of(cell)].slot;
+  auto& entered = lines_[brick_of(to)].slot;
+  if (left.back() != 0 || entered.back() != 0) [[unlikely]] {
+    remove(particle, cell);
+    insert(particle, to);
+    return to;
+  }
+  // Removed and inserted as above, but without a branch: where a particle's slot is, how many there
+  // are and whether the two bricks are one is as good as random.
+  const std::size_t last = taken(left) - 1;
+  const std::size_t end = taken(entered) - (&left == &entered ? 1 : 0);
+  left[place_of(entry(particle, cell), left)] = left[last];
+  left[last] = 0;
+  entered[end] = entry(particle, to);
+  return to;
+}
 
 template <int d>
 [[gnu::always_inline]] inline Exit Bricks::exit(const Particle& p, Cell cell, double now) const {
