@@ -32,8 +32,8 @@ void Calendar::restart(double rate, std::uint32_t foresight) {
   foresight_ = foresight;
   slot_ = 0;
   first_window_ = 0;
-  due_.assign(2, {std::numeric_limits<double>::infinity(), 0});
-  head_ = 0;
+  due_.assign(2, never_due);
+  head_ = end_ = 0;
   lists_.assign(slots() + 1 + windows_ahead(events_.size()), {});
   chunks_.clear();
   free_chunk_ = none;
@@ -69,23 +69,27 @@ void Calendar::add_beyond(std::uint32_t particle) {
   beyond_.push_back(particle);
 }
 
+// For so many more that are due.
+void Calendar::make_room(std::size_t count) {
+  if (due_.size() < end_ + count + 2) [[unlikely]]
+    due_.resize(2 * (end_ + count) + 2);
+}
+
 void Calendar::add_to_due(double time, std::uint32_t particle) {
-  due_.push_back(due_.back());
-  std::size_t k = due_.size() - 3;
+  make_room(1);
+  std::size_t k = end_++;
+  due_[end_ + 1] = never_due;
+  due_[end_] = never_due;
   for (; k > head_ && time < due_[k - 1].time; --k) due_[k] = due_[k - 1];
   due_[k] = {time, particle};
 }
 
 // Puts the first `count` of found_ in order, at the end of what is due.
 void Calendar::sort_in(std::size_t count) {
-  const Entry last = due_.back();
-  const std::size_t before = due_.size() - 2;
-  due_.resize(before + count + 2, last);
-  const auto begin = due_.begin() + static_cast<std::ptrdiff_t>(before);
-  const auto end = begin + static_cast<std::ptrdiff_t>(count);
-  const auto sooner = [](const Entry& a, const Entry& b) { return a.time < b.time; };
-  std::copy(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(count), begin);
-  if (count <= most_ranked) {
+  make_room(count);
+  Entry* const begin = due_.data() + end_;
+  Entry* const end = begin + count;
+  if (count <= most_ranked) [[likely]] {
     // 26 bits of the time within the slot, and five that tell one from another.
     alignas(64) Keys key;
     key.fill(std::numeric_limits<std::int32_t>::max());
@@ -99,16 +103,23 @@ void Calendar::sort_in(std::size_t count) {
     else
       rank_all<most_ranked>(key, count, rank);
     for (std::size_t k = 0; k < count; ++k) begin[rank[k]] = found_[k];
+  } else {
+    std::copy_n(found_.begin(), count, begin);
   }
   // Too many to be ranked, or two closer than 2^-26 of a slot.
+  const auto sooner = [](const Entry& a, const Entry& b) { return a.time < b.time; };
   if (!std::is_sorted(begin, end, sooner)) [[unlikely]]
     std::sort(begin, end, sooner);
+  end[0] = end[1] = never_due;
+  end_ += count;
 }
 
 bool Calendar::open_next_slot() {
   // What is left of the slots before comes to the front.
-  due_.erase(due_.begin(), due_.begin() + static_cast<std::ptrdiff_t>(head_));
+  for (std::size_t k = head_; k < end_; ++k) due_[k - head_] = due_[k];
+  end_ -= head_;
   head_ = 0;
+  due_[end_] = due_[end_ + 1] = never_due;
   for (;;) {
     ++slot_;
     if (in_window(slot_) == 0 && !open_next_window()) return false;

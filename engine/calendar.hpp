@@ -66,7 +66,7 @@ class Calendar {
 
   // Whose event comes so many places later, as far as is known now; at the end, any particle.
   std::uint32_t coming(std::uint32_t places) const {
-    return due_[std::min<std::size_t>(head_ + places, due_.size() - 1)].particle;
+    return due_[std::min<std::size_t>(head_ + places, end_)].particle;
   }
 
   std::size_t memory() const;
@@ -86,6 +86,7 @@ class Calendar {
     double time;
     std::uint32_t particle;
   };
+  static constexpr Entry never_due{std::numeric_limits<double>::infinity(), 0};
   static constexpr std::uint32_t in_chunk = 31;
   // Particles; `next` is the chunk filled before.
   struct alignas(64) Chunk {
@@ -117,6 +118,7 @@ class Calendar {
   void add_to_due(double time, std::uint32_t particle);
   void add_beyond(std::uint32_t particle);
   void sort_in(std::size_t count);
+  void make_room(std::size_t count);
   bool open_next_slot();    // the next slot with entries; false if there is none
   bool open_next_window();  // false if nothing is left
   void extend();            // more windows, for what lay beyond the last
@@ -130,9 +132,10 @@ class Calendar {
   std::uint32_t foresight_ = 0;
   Slot slot_ = 0;          // the last one that is due, counted from time zero
   Slot first_window_ = 0;  // the first one that has a list
-  // In order from head_ on; at the end two that are never due, of particle 0.
+  // In order from head_ to end_; there follow two that are never due.
   std::vector<Entry> due_;
   std::size_t head_ = 0;
+  std::size_t end_ = 0;
   std::vector<List> lists_;  // of slots, one more for what belongs to none, and of windows
   HugeVector<Chunk> chunks_;
   std::uint32_t free_chunk_ = none;
@@ -163,7 +166,7 @@ inline void Calendar::schedule(std::uint32_t particle) {
 template <class Rank>
 std::uint32_t Calendar::next(Rank&& rank) {
   for (;;) {
-    while (head_ + foresight_ + 2 >= due_.size() && open_next_slot()) {
+    while (head_ + foresight_ >= end_ && open_next_slot()) {
     }
     const Entry& first = due_[head_];
     if (first.time == std::numeric_limits<double>::infinity()) [[unlikely]]
@@ -192,7 +195,7 @@ template <class Rank>
 std::uint32_t Calendar::settle_tie(Rank&& rank) {
   const auto tied = due_.begin() + static_cast<std::ptrdiff_t>(head_);
   const auto end = std::find_if(
-      tied, due_.end(), [time = tied->time](const Entry& entry) { return entry.time != time; });
+      tied, due_.begin() + static_cast<std::ptrdiff_t>(end_), [time = tied->time](const Entry& entry) { return entry.time != time; });
   const auto first = std::min_element(tied, end, [&](const Entry& a, const Entry& b) {
     if (outdated(a) || outdated(b)) return outdated(a) < outdated(b);
     return rank(a.particle) < rank(b.particle);
