@@ -17,7 +17,7 @@ Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inver
   cells_ = 2 * bricks;
   cell_side_ = box.side / cells_;
   const std::uint32_t layers = box.d == 2 ? 1 : bricks;
-  for (std::uint32_t axis = 0, stride = 1; axis < 3; ++axis, stride *= bricks) {
+  for (std::uint32_t axis = 0, stride = slots; axis < 3; ++axis, stride *= bricks) {
     const std::uint32_t count = axis == 2 ? layers : bricks;
     for (std::uint32_t c = 0; c < 2 * count; ++c) {
       const std::uint32_t brick = c / 2;
@@ -48,7 +48,7 @@ Cell Bricks::locate(const Vector& position) const {
 
 void Bricks::insert(std::uint32_t particle, Cell cell) {
   const std::uint32_t brick = brick_of(cell);
-  auto& slot = lines_[brick].slot;
+  auto& slot = lines_[brick / slots].slot;
   if (slot.back() == 0)
     slot[taken(slot)] = entry(particle, cell);
   else
@@ -58,7 +58,7 @@ void Bricks::insert(std::uint32_t particle, Cell cell) {
 void Bricks::remove(std::uint32_t particle, Cell cell) {
   const std::uint32_t brick = brick_of(cell);
   const std::uint32_t gone = entry(particle, cell);
-  auto& slot = lines_[brick].slot;
+  auto& slot = lines_[brick / slots].slot;
   auto hole = std::find(slot.begin(), slot.end(), gone);
   if (const auto extra = overflow_.find(brick); extra != overflow_.end()) {
     auto& more = extra->second;

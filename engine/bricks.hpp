@@ -68,7 +68,7 @@ class Bricks {
       return ((slot ^ like) & care[n][0]) == 0;
     }
 
-    std::array<std::uint32_t, count> brick;
+    std::array<std::uint32_t, count> brick;  // numbers
     std::uint32_t like;
     const Care* care;  // in each brick
   };
@@ -109,7 +109,8 @@ class Bricks {
   std::uint32_t brick_of(Cell cell) const {
     return along(cell, 0).own + along(cell, 1).own + along(cell, 2).own;
   }
-  const Line& line(std::uint32_t brick) const { return lines_[brick]; }
+  const Line& line(std::uint32_t brick) const { return lines_[brick / slots]; }
+  const std::uint32_t* all_slots() const { return lines_.data()->slot.data(); }
   const std::vector<std::uint32_t>& overflow(std::uint32_t brick) const;
 
   double cell_side() const { return cell_side_; }
@@ -124,8 +125,8 @@ class Bricks {
   static constexpr double smallest_occupancy = 0.4;
   static constexpr std::uint32_t most_cells = 1024;  // along an axis
 
-  // A brick's number is a sum over the axes. Of a cell, along one of them: what its own brick and
-  // the other one that its neighbours are in add to theirs.
+  // A brick's number is that of its first slot, and a sum over the axes. Of a cell, along one of
+  // them: what its own brick and the other one that its neighbours are in add to theirs.
   struct Share {
     std::uint32_t own;
     std::uint32_t next;
@@ -187,8 +188,8 @@ class Bricks {
 
 [[gnu::always_inline]] inline Cell Bricks::cross(std::uint32_t particle, Cell cell, Face face) {
   const Cell to = across(cell, face);
-  auto& left = lines_[brick_of(cell)].slot;
-  auto& entered = lines_[brick_of(to)].slot;
+  auto& left = lines_[brick_of(cell) / slots].slot;
+  auto& entered = lines_[brick_of(to) / slots].slot;
   if (left.back() != 0 || entered.back() != 0) [[unlikely]] {
     remove(particle, cell);
     insert(particle, to);

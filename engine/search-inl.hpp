@@ -135,20 +135,20 @@ class SimdSearch {
 
   using List = std::vector<std::uint32_t>;
 
-  // The slots where to look, as they are; after the last one, that of p itself (nobody touches
-  // itself) to fill a vector. `higher`: only of particles with higher numbers.
+  // The wanted slots without what they say beside the particle; after the last one, that of p itself
+  // (nobody touches itself) to fill a vector. `higher`: only of particles with higher numbers.
   template <bool higher = false, class Where>
   HWY_INLINE std::size_t gather(std::uint32_t p, const Where& where, List& list) {
     const auto wanted = where();
     // Known to stay: the compiler would read them again after every store.
-    const Bricks::Line* const lines = &gas_.bricks.line(0);
+    const std::uint32_t* const slots = gas_.bricks.all_slots();
     std::uint32_t* const to = list.data();
     std::size_t count = 0;
     std::uint32_t more = 0;  // slots are filled from the front
 #pragma GCC unroll 8
     for (std::size_t n = 0; n < wanted.brick.size(); ++n) {
-      const auto& slot = lines[wanted.brick[n]].slot;
-      count += take_half<higher>(p, slot.data(), wanted.like, wanted.care[n], to + count);
+      const std::uint32_t* const slot = slots + wanted.brick[n];
+      count += take_half<higher>(p, slot, wanted.like, wanted.care[n], to + count);
       more |= slot[8];
     }
     if (HWY_UNLIKELY(more != 0)) count = gather_rest<higher>(p, where, list, count);
@@ -170,7 +170,7 @@ class SimdSearch {
       if (HWY_LIKELY(slot[15] == 0)) continue;
       for (const std::uint32_t extra : gas_.bricks.overflow(wanted.brick[n])) {
         if (!wanted.holds(n, extra) || (higher && Bricks::particle_in(extra) < p)) continue;
-        list[count++] = extra;
+        list[count++] = extra & Bricks::particle_bits;
         if (list.size() < count + 8 * Bricks::slots + slack) list.resize(2 * list.size());
       }
     }
@@ -195,7 +195,8 @@ class SimdSearch {
       const auto lanes = hn::IndicesFromVec(
           d, hn::PromoteTo(
                  d, hn::Load(hn::Rebind<std::uint8_t, Slots>(), compress_table.lanes[bits])));
-      hn::StoreU(hn::TableLookupLanes(slots, lanes), d, to + count);
+      const auto particles = hn::And(slots, hn::Set(d, Bricks::particle_bits));
+      hn::StoreU(hn::TableLookupLanes(particles, lanes), d, to + count);
       count += static_cast<std::size_t>(std::popcount(bits));
     }
     return count;
@@ -217,7 +218,7 @@ class SimdSearch {
       const auto at = [&](std::size_t lane) HWY_ATTR {
         return hn::Load(
             hn::FixedTag<double, 2>(),
-            reinterpret_cast<const double*>(all + (candidate[lane] & Bricks::particle_bits)) + k);
+            reinterpret_cast<const double*>(all + candidate[lane]) + k);
       };
 #if HWY_CAP_GE256
       const V even = hn::Combine(d, at(2), at(0));
