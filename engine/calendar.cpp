@@ -162,8 +162,7 @@ bool Calendar::open_next_window() {
     });
     for (const std::uint32_t particle : opened_) {
       const Slot slot = slot_of(events_[particle].time);
-      append(lists_[choose(window_of(slot) == window, in_window(slot), slots())],
-             particle);
+      append(lists_[choose(window_of(slot) == window, in_window(slot), slots())], particle);
     }
     empty(lists_[slots()], [](std::uint32_t) {});
     return true;

@@ -74,8 +74,8 @@ class Calendar {
  private:
   using Slot = std::uint64_t;  // counted from time zero
   static constexpr double events_per_slot = 12;
-  // A window holds the events of a small gas nearly all, which then go to their slots at once (3 %);
-  // of a large one's it holds as many as stay in cache (4096 slots cost a tenth at 32 000).
+  // A window holds the events of a small gas nearly all, which then go to their slots at once (3
+  // %); of a large one's it holds as many as stay in cache (4096 slots cost a tenth at 32 000).
   static constexpr std::uint32_t small = 16000;
   static constexpr unsigned bits_if_small = 12;
   static constexpr unsigned bits_if_large = 6;
@@ -95,7 +95,8 @@ class Calendar {
   };
   struct List {
     std::uint32_t chunk = none;
-    std::uint32_t count = in_chunk;  // in the newest chunk; a full one makes the next append open another
+    std::uint32_t count =
+        in_chunk;  // in the newest chunk; a full one makes the next append open another
   };
 
   // Far beyond any window, and infinity: kept aside, as the conversion would overflow.
@@ -194,8 +195,9 @@ inline bool Calendar::only_twins() const {
 template <class Rank>
 std::uint32_t Calendar::settle_tie(Rank&& rank) {
   const auto tied = due_.begin() + static_cast<std::ptrdiff_t>(head_);
-  const auto end = std::find_if(
-      tied, due_.begin() + static_cast<std::ptrdiff_t>(end_), [time = tied->time](const Entry& entry) { return entry.time != time; });
+  const auto end =
+      std::find_if(tied, due_.begin() + static_cast<std::ptrdiff_t>(end_),
+                   [time = tied->time](const Entry& entry) { return entry.time != time; });
   const auto first = std::min_element(tied, end, [&](const Entry& a, const Entry& b) {
     if (outdated(a) || outdated(b)) return outdated(a) < outdated(b);
     return rank(a.particle) < rank(b.particle);

@@ -135,8 +135,9 @@ class SimdSearch {
 
   using List = std::vector<std::uint32_t>;
 
-  // The wanted slots without what they say beside the particle; after the last one, that of p itself
-  // (nobody touches itself) to fill a vector. `higher`: only of particles with higher numbers.
+  // The wanted slots without what they say beside the particle; after the last one, that of p
+  // itself (nobody touches itself) to fill a vector. `higher`: only of particles with higher
+  // numbers.
   template <bool higher = false, class Where>
   HWY_INLINE std::size_t gather(std::uint32_t p, const Where& where, List& list) {
     const auto wanted = where();
@@ -165,8 +166,8 @@ class SimdSearch {
     for (std::size_t n = 0; n < wanted.brick.size(); ++n) {
       const auto& slot = gas_.bricks.line(wanted.brick[n]).slot;
       if (slot[8] != 0)
-        count += take_half<higher>(p, slot.data() + 8, wanted.like, wanted.care[n],
-                                   list.data() + count);
+        count +=
+            take_half<higher>(p, slot.data() + 8, wanted.like, wanted.care[n], list.data() + count);
       if (HWY_LIKELY(slot[15] == 0)) continue;
       for (const std::uint32_t extra : gas_.bricks.overflow(wanted.brick[n])) {
         if (!wanted.holds(n, extra) || (higher && Bricks::particle_in(extra) < p)) continue;
@@ -216,9 +217,8 @@ class SimdSearch {
         __attribute__((always_inline)) {
       // Of each record two neighbouring doubles; records 0, 2 and 1, 3 share a vector.
       const auto at = [&](std::size_t lane) HWY_ATTR {
-        return hn::Load(
-            hn::FixedTag<double, 2>(),
-            reinterpret_cast<const double*>(all + candidate[lane]) + k);
+        return hn::Load(hn::FixedTag<double, 2>(),
+                        reinterpret_cast<const double*>(all + candidate[lane]) + k);
       };
 #if HWY_CAP_GE256
       const V even = hn::Combine(d, at(2), at(0));
