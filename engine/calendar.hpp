@@ -188,8 +188,9 @@ inline bool Calendar::only_twins() const {
   const Entry* const due = due_.data() + head_;
   const Event& one = events_[due[0].particle];
   const Event& other = events_[due[1].particle];
-  return all_of(one.partner == due[1].particle, other.partner == due[0].particle,
-                (one.face & other.face) == Event::contact, due[2].time != due[0].time);
+  const std::uint32_t differ = (one.partner ^ due[1].particle) | (other.partner ^ due[0].particle) |
+                               ((one.face & other.face) ^ Event::contact);
+  return all_of(differ == 0, due[2].time != due[0].time);
 }
 
 template <class Rank>

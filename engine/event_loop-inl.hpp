@@ -108,7 +108,7 @@ class EventLoop {
   }
 
   // Of all who are near p the first to touch it is this one.
-  void expect(std::uint32_t p, const Contact& contact) {
+  HWY_INLINE void expect(std::uint32_t p, const Contact& contact) {
     Event& event = gas_.calendar[p];
     event.contact_time = contact.time;
     event.partner = contact.partner;
@@ -117,7 +117,7 @@ class EventLoop {
   }
 
   // p touches its partner, or leaves its cell.
-  void schedule(std::uint32_t p) {
+  HWY_INLINE void schedule(std::uint32_t p) {
     Event& event = gas_.calendar[p];
     const Exit exit = search_.exit(p, event.cell, now_);
     event.time = std::min(event.contact_time, exit.time);

@@ -76,14 +76,14 @@ class SimdSearch {
 #if HWY_CAP_GE256
     const Particle& own = gas_.particles[p];
     const Reals d;
-    const hn::Rebind<std::int32_t, Reals> d32;
-    alignas(16) static constexpr std::int32_t shifts[4] = {0, 10, 20, 30};
+    const hn::Rebind<std::uint32_t, Reals> d32;
+    alignas(16) static constexpr std::uint32_t shifts[4] = {0, 10, 20, 30};
     const auto axes = hn::FirstN(d, dimension);
     const V v = hn::IfThenElseZero(axes, hn::Load(d, own.velocity.data()));
     const V x = hn::Add(hn::Load(d, own.position.data()), hn::Mul(v, hn::Set(d, now - own.time)));
-    const auto packed = hn::Set(d32, static_cast<std::int32_t>(cell.packed));
-    const V coordinate =
-        hn::PromoteTo(d, hn::And(hn::Shr(packed, hn::Load(d32, shifts)), hn::Set(d32, 1023)));
+    const auto shifted = hn::Shr(hn::Set(d32, cell.packed), hn::Load(d32, shifts));
+    const V coordinate = hn::PromoteTo(
+        d, hn::BitCast(hn::RebindToSigned<decltype(d32)>(), hn::And(shifted, hn::Set(d32, 1023))));
     const Bricks& bricks = gas_.bricks;
     V to_centre =
         hn::Sub(hn::Mul(hn::Add(coordinate, hn::Set(d, 0.5)), hn::Set(d, bricks.cell_side())), x);
@@ -96,8 +96,9 @@ class SimdSearch {
         hn::Max(hn::Add(hn::Set(d, 0.5 * bricks.cell_side()), ahead), hn::Set(d, 1e-300));
     const V time = hn::IfThenElse(axes, hn::Div(distance, hn::Abs(v)), hn::Set(d, never));
     const V first = hn::MinOfLanes(d, time);
-    std::uint8_t bits = 0;
-    hn::StoreMaskBits(d, hn::Eq(time, first), &bits);
+    std::uint8_t mask = 0;
+    hn::StoreMaskBits(d, hn::Eq(time, first), &mask);
+    const std::size_t bits = mask;
     const auto axis = static_cast<unsigned>(std::countr_zero(bits));
     return {now + hn::GetLane(first), 2 * axis + (own.velocity[axis] > 0 ? 1u : 0u)};
 #else
