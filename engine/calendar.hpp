@@ -145,13 +145,13 @@ class Calendar {
   std::vector<std::uint32_t> beyond_;  // events after the last window
 };
 
-inline void Calendar::append(List& list, std::uint32_t particle) {
+[[gnu::always_inline]] inline void Calendar::append(List& list, std::uint32_t particle) {
   if (list.count == in_chunk) [[unlikely]]
     open_chunk(list);
   chunks_[list.chunk].particle[list.count++] = particle;
 }
 
-inline void Calendar::schedule(std::uint32_t particle) {
+[[gnu::always_inline]] inline void Calendar::schedule(std::uint32_t particle) {
   const double time = events_[particle].time;
   const Slot slot = slot_of(time);
   const Slot window = window_of(slot);
