@@ -6,12 +6,6 @@
 namespace haff::engine {
 namespace {
 
-// Windows made at a time: enough for some two collisions per particle, so that nearly every event
-// finds its window at once. A window costs 8 bytes.
-std::size_t windows_ahead(std::size_t particles) {
-  return std::max<std::size_t>(1024, particles / 256);
-}
-
 // Where each of up to 32 numbers goes when they are put in order: how many are smaller. All
 // comparisons of all with all: no branch, and the compiler makes vectors of it. The numbers differ.
 constexpr std::size_t most_ranked = 32;
@@ -34,7 +28,7 @@ void Calendar::restart(double rate, std::uint32_t foresight) {
   first_window_ = 0;
   due_.assign(2, never_due);
   head_ = end_ = 0;
-  lists_.assign(slots() + 1 + windows_ahead(events_.size()), {});
+  lists_.assign(slots() + 1 + windows_ahead(), {});
   chunks_.clear();
   free_chunk_ = none;
   beyond_.clear();

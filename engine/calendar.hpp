@@ -77,7 +77,7 @@ class Calendar {
   // A window holds the events of a small gas nearly all, which then go to their slots at once (3
   // %); of a large one's it holds as many as stay in cache (4096 slots cost a tenth at 32 000).
   static constexpr std::uint32_t small = 16000;
-  static constexpr unsigned bits_if_small = 12;
+  static constexpr unsigned bits_if_small = 10;
   static constexpr unsigned bits_if_large = 6;
   static constexpr std::uint32_t none = 0xffffffff;
   static constexpr Slot no_slot = Slot{1} << 62;
@@ -103,6 +103,11 @@ class Calendar {
   Slot slot_of(double time) const {
     const double slot = time * slots_per_time_;
     return slot < 0x1p62 ? static_cast<Slot>(static_cast<std::int64_t>(slot)) : no_slot;
+  }
+  // Windows made at a time: enough for some two collisions per particle, so that nearly every event
+  // finds its window at once.
+  std::size_t windows_ahead() const {
+    return 64 + 4 * events_.size() / (static_cast<std::size_t>(events_per_slot) * slots());
   }
   // A window has a power of two of slots.
   Slot slots() const { return Slot{1} << window_bits_; }
