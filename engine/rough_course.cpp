@@ -12,8 +12,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-// Prefetching whatever the size: it matters where runs are long.
 std::unique_ptr<Course> simd_rough_spheres(const Model& model, const State& start) {
+  if (start.id.size() < worth_prefetching)
+    return std::make_unique<CourseOf<SimdSearch<3>, RoughSpheres>>(RoughSpheres(model), start);
   return std::make_unique<CourseOf<SimdSearch<3>, RoughSpheres, true>>(RoughSpheres(model), start);
 }
 

@@ -338,11 +338,11 @@ class SimdSearch {
 
     HWY_INLINE void take(const Approach& pair, const std::uint32_t* candidates) {
       const Reals d;
-      const auto touches = hn::And(hn::Lt(pair.approach, hn::Set(d, -smallest_approach)),
-                                   hn::Ge(pair.discriminant, hn::Zero(d)));
       const V flight = hn::Div(hn::Max(pair.gap, hn::Zero(d)),
                                hn::Sub(hn::Sqrt(pair.discriminant), pair.approach));
-      const V at = hn::IfThenElse(touches, hn::Add(pair.start, flight), hn::Set(d, never));
+      // Of those who pass by, a root of a negative number: NaN, and that is not earlier than anything.
+      const V at = hn::IfThenElse(hn::Lt(pair.approach, hn::Set(d, -smallest_approach)),
+                                  hn::Add(pair.start, flight), hn::Set(d, never));
       const auto earlier = hn::Lt(at, time);
       tie = hn::Or(tie, hn::Eq(at, time));
       time = hn::IfThenElse(earlier, at, time);
