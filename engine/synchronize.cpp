@@ -1,10 +1,13 @@
 #include "engine/synchronize.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/contact.hpp"
 #include "engine/simulation.hpp"
@@ -37,6 +40,22 @@ std::uint64_t place_on_curve(const Vector& position, const Box& box) {
     place |= spread(static_cast<std::uint64_t>(std::clamp<std::int64_t>(cell, 0, 1023))) << k;
   }
   return place;
+}
+
+// Sorts by the upper 32 bits; what is equal there stays in its order. Digit by digit, the lowest
+// first: a third of the time of comparing, which is wrong about every second branch.
+void sort_by_upper_half(std::vector<std::uint64_t>& numbers) {
+  constexpr unsigned bits = 11;
+  constexpr std::size_t digits = std::size_t{1} << bits;
+  std::vector<std::uint64_t> sorted(numbers.size());
+  for (unsigned shift = 32; shift < 64; shift += bits) {
+    const auto digit = [shift](std::uint64_t number) { return number >> shift & (digits - 1); };
+    std::array<std::size_t, digits + 1> place{};  // of the first number with this digit
+    for (const std::uint64_t number : numbers) ++place[digit(number) + 1];
+    std::partial_sum(place.begin(), place.end(), place.begin());
+    for (const std::uint64_t number : numbers) sorted[place[digit(number)]++] = number;
+    numbers.swap(sorted);
+  }
 }
 
 template <class Masses>
@@ -135,7 +154,7 @@ void sort_in_space(std::span<Particle> particles, const Box& box) {
   std::vector<std::uint64_t> order(particles.size());
   for (std::size_t k = 0; k < particles.size(); ++k)
     order[k] = place_on_curve(particles[k].position, box) << 32 | k;
-  std::sort(order.begin(), order.end());
+  sort_by_upper_half(order);
 
   // Permuted in place, cycle by cycle: a second copy of the particles would be the largest
   // allocation of a run.
