@@ -36,7 +36,7 @@ constexpr std::string_view one_restitution =
 
 constexpr std::string_view shuffled =
     R"({ "e": 0.85, "n": 0.4, "N": 32000, "seeds": 4, "tau_max": 100,
-  "grids": [{"effects": {}}, {"effects": {"shuffle": {"every": 1}}}] })";
+  "effects": [{}, {"shuffle": {"every": 1}}] })";
 constexpr std::string_view several_densities =
     R"({ "e": 0.85, "n": [0.05, 0.1, 0.2, 0.4, 0.5], "N": 32000, "seeds": 3, "tau_max": 90,
   "observables": ["temperature", "laguerre"] })";

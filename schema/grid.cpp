@@ -60,6 +60,21 @@ std::vector<Placed> items(const Placed& placed) {
   return list;
 }
 
+// An effect wherever it stands among the effects of a grid, each without a list around it.
+std::vector<Placed> asked(const Placed& effects, const std::string& effect) {
+  std::vector<Placed> list;
+  for (const Placed& one : items(effects))
+    if (one.value.contains(effect))
+      for (Placed& choice : items({one.where / effect, one.value[effect]}))
+        list.push_back(std::move(choice));
+  return list;
+}
+
+// What its key holds.
+std::vector<Placed> items(const Placed& effect, const std::string& key) {
+  return items({effect.where / key, effect.value[key]});
+}
+
 // A grid of the document: its own keys, else those beside "grids", else the schema's defaults.
 class Source {
  public:
@@ -194,16 +209,17 @@ class Examiner {
 
   void go_together(const Source& source) const {
     const Placed effects = source["effects"];
-    for (const Json& one : expanded(effects.value)) {
-      if (const auto why = nonsense(one)) throw fault(file_, effects.where, *why);
-      has_one_restitution(source, one);
-      if (one.contains("thermostat")) loses_energy(source);
-      if (one.contains("shuffle")) collides_between_shuffles(source, one);
-    }
+    for (const Placed& listed : items(effects))
+      for (const Json& one : expanded(listed.value)) {
+        if (const auto why = nonsense(one)) throw fault(file_, listed.where, *why);
+        has_one_restitution(source, one);
+        if (one.contains("thermostat")) loses_energy(source);
+      }
+    collides_between_shuffles(source, effects);
     has_both_species(source, effects);
     for (const Placed& observable : items(source["observables"])) {
       const auto name = observable.value.get<std::string>();
-      if (effects.value.contains("mixture") && (is_profile(name) || is_field(name)))
+      if (!asked(effects, "mixture").empty() && (is_profile(name) || is_field(name)))
         throw fault(file_, observable.where,
                     shown(observable.value) +
                         " is of equal spheres; with a mixture expected \"temperature\" or "
@@ -330,16 +346,15 @@ class Examiner {
   }
 
   void has_both_species(const Source& source, const Placed& effects) const {
-    if (!effects.value.contains("mixture")) return;
-    const Placed fractions{effects.where / "mixture" / "fraction",
-                           effects.value["mixture"]["fraction"]};
-    for (const Placed& fraction : items(fractions))
-      for (const double N : source.list<double>("N"))
-        if (const double second = std::round(fraction.value.get<double>() * N);
-            second < 1 || second > N - 1)
-          throw fault(file_, fraction.where,
-                      shown(fraction.value) + " of " + text(N) +
-                          " particles leaves a species without any; expected at least one of each");
+    for (const Placed& mixture : asked(effects, "mixture"))
+      for (const Placed& fraction : items(mixture, "fraction"))
+        for (const double N : source.list<double>("N"))
+          if (const double second = std::round(fraction.value.get<double>() * N);
+              second < 1 || second > N - 1)
+            throw fault(
+                file_, fraction.where,
+                shown(fraction.value) + " of " + text(N) +
+                    " particles leaves a species without any; expected at least one of each");
   }
 
   void fits_in_memory(const Placed& particles, double N) const {
@@ -357,12 +372,12 @@ class Examiner {
         throw fault(file_, density.where,
                     shown(density.value) + " is too dense for disks (d = 2); expected n below " +
                         "2/sqrt(3) = 1.1547 (close packing)");
-    const Placed effects = source["effects"];
-    for (const auto& [name, effect] : effects.value.items())
-      if (std::find(effects_of_disks.begin(), effects_of_disks.end(), name) ==
-          effects_of_disks.end())
-        throw fault(file_, effects.where / name,
-                    "is an effect for spheres alone; expected d = 3 with it");
+    for (const Placed& effects : items(source["effects"]))
+      for (const auto& [name, effect] : effects.value.items())
+        if (std::find(effects_of_disks.begin(), effects_of_disks.end(), name) ==
+            effects_of_disks.end())
+          throw fault(file_, effects.where / name,
+                      "is an effect for spheres alone; expected d = 3 with it");
   }
 
   void fits_in_box(const Placed& particles, double N, double n, int d) const {
@@ -403,13 +418,14 @@ class Examiner {
                     "without end; expected e < 1");
   }
 
-  void collides_between_shuffles(const Source& source, const Json& effects) const {
-    const double every = effects["shuffle"]["every"].get<double>();
-    for (const double N : source.list<double>("N"))
-      if (every * N < 2)
-        throw fault(file_, source["effects"].where / "shuffle" / "every",
-                    text(every) + " is less than one collision of " + text(N) +
-                        " particles; expected at least 2/N = " + rounded(2 / N));
+  void collides_between_shuffles(const Source& source, const Placed& effects) const {
+    for (const Placed& shuffle : asked(effects, "shuffle"))
+      for (const Placed& every : items(shuffle, "every"))
+        for (const double N : source.list<double>("N"))
+          if (every.value.get<double>() * N < 2)
+            throw fault(file_, every.where,
+                        shown(every.value) + " is less than one collision of " + text(N) +
+                            " particles; expected at least 2/N = " + rounded(2 / N));
   }
 
   void collides_between_samples(const Source& source, double N, double sample_every) const {

@@ -44,7 +44,10 @@ std::string value(Random& random, int depth) {
     static const char* const objects[] = {
         R"({"restitution": {"law": "tc", "t_c": 1e-4}})",
         R"({"restitution": [{"law": "threshold", "speed": [1, 2]}, {"law": "constant"}]})",
-        R"({"restitution": {"law": "tc"}})", R"({"0.8": 90})", R"({"law": "tc", "t_c": []})"};
+        R"([{}, {"shuffle": [{"every": 1}, {"every": [2, 1e-4]}]}])",
+        R"({"restitution": {"law": "tc"}})",
+        R"({"0.8": 90})",
+        R"({"law": "tc", "t_c": []})"};
     return objects[below(random, std::size(objects))];
   }
   return scalars[below(random, std::size(scalars))];

@@ -54,6 +54,43 @@ TEST_CASE("effects: lists expand, of laws and within them") {
         Texts{"{}", R"({"restitution":{"law":"threshold","speed":0.5}})"});
 }
 
+TEST_CASE("effects: lists expand, of any effect and of effects as a whole") {
+  CHECK(effects(R"([{}, {"shuffle": {"every": 1}}])") ==
+        Texts{"{}", R"({"shuffle":{"every":1.0}})"});
+  CHECK(effects(R"({"shuffle": [{"every": 1}, {"every": 2}]})") ==
+        effects(R"({"shuffle": {"every": [1, 2]}})"));
+  CHECK(effects(R"([{"shuffle": {"every": 1}, "thermostat": [{"rate": 1}, {"rate": 2}]},
+                    {"roughness": [{"beta": 0, "q": 0.4}, {"beta": [0.5, 1], "q": 1}]}])") ==
+        Texts{R"({"shuffle":{"every":1.0},"thermostat":{"rate":1.0}})",
+              R"({"shuffle":{"every":1.0},"thermostat":{"rate":2.0}})",
+              R"({"roughness":{"beta":0.0,"q":0.4}})", R"({"roughness":{"beta":0.5,"q":1.0}})",
+              R"({"roughness":{"beta":1.0,"q":1.0}})"});
+  CHECK(effects(R"([{}, {"restitution": {"law": "constant"}}])") == Texts{"{}"});
+}
+
+TEST_CASE("effects: what is wrong within a list is named with its place") {
+  CHECK(complaint("[]").find("g.json: /effects: [] is not accepted") == 0);
+  CHECK(complaint(R"([{}, {"shufle": {"every": 1}}])") ==
+        "g.json: /effects/1/shufle: unknown key; did you mean \"shuffle\"?");
+  CHECK(complaint(R"([{}, {"shuffle": [{"every": 1}, {"every": 0}]}])")
+            .find("g.json: /effects/1/shuffle/1/every: 0 is not accepted") == 0);
+  CHECK(complaint(R"({"shuffle": [{"every": 1}, {"every": [2, 0.001]}]})") ==
+        "g.json: /effects/shuffle/1/every/1: 0.001 is less than one collision of 1000 particles; "
+        "expected at least 2/N = 0.002");
+  const std::string mixture = R"({"fraction": 1e-4, "diameter_ratio": 1, "mass_ratio": 1})";
+  CHECK(complaint(R"([{}, {"mixture": [)" + mixture + "]}]")
+            .find("g.json: /effects/1/mixture/0/fraction: 0.0001 of 1000 particles") == 0);
+  CHECK(complaint(R"([{}, {"roughness": [{"beta": 0, "q": 0.4}]}], "d": 2)")
+            .find("g.json: /effects/1/roughness: ") == 0);
+  CHECK(complaint(R"([{}, {"shuffle": {"every": 1}, "mixture": )" + mixture + "}]")
+            .find("g.json: /effects/1: mixture and shuffle") == 0);
+  const std::string half = R"({"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": 1})";
+  CHECK(complaint(R"([{}, {"mixture": )" + half + R"(}], "observables": "clusters")")
+            .find("g.json: /observables: \"clusters\" is of equal spheres") == 0);
+  CHECK(complaint(R"([{}, {"restitution": {"law": "viscoelastic", "A": 0.1}}])")
+            .find("g.json: /e: 0.8 does not go together") == 0);
+}
+
 TEST_CASE("effects: what is wrong is named") {
   CHECK(complaint(R"({"restituton": {"law": "tc", "t_c": 1e-4}})") ==
         "g.json: /effects/restituton: unknown key; did you mean \"restitution\"?");
