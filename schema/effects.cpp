@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace haff::schema {
 
 namespace {
 
-// Two that do not go together, and why: an effect's name, or "effect/key=word" for one of its
-// kinds.
+// Two that do not go together, or that nobody has written yet, and why: an effect's name, or
+// "effect/key=word" for one of its kinds.
 struct Exclusion {
   std::string_view one;
   std::string_view other;
@@ -17,11 +18,16 @@ struct Exclusion {
 };
 
 constexpr std::array<Exclusion, 4> exclusions{{
-    {"mixture", "roughness", "rough spheres are equal ones"},
-    {"mixture", "shuffle", "species of different mass cannot exchange velocities"},
-    {"mixture", "thermostat", "its noise is that of equal masses"},
-    {"mixture", "restitution/law=viscoelastic", "A depends on the sizes and masses of a pair"},
+    {"mixture", "roughness", "are not implemented together: rough spheres are equal ones"},
+    {"mixture", "shuffle",
+     "do not go together: species of different mass cannot exchange velocities"},
+    {"mixture", "thermostat", "are not implemented together: its noise is that of equal masses"},
+    {"mixture", "restitution/law=viscoelastic",
+     "are not implemented together: A depends on the sizes and masses of a pair"},
 }};
+
+// Heated, or with more than one temperature.
+constexpr std::array<std::string_view, 3> change_haffs_law{"mixture", "roughness", "thermostat"};
 
 constexpr std::array<std::string_view, 1> matter_in_equilibrium{"mixture"};
 
@@ -39,9 +45,18 @@ bool asks_for(const Json& effects, std::string_view what) {
 std::optional<std::string> nonsense(const Json& effects) {
   for (const auto& [one, other, why] : exclusions)
     if (asks_for(effects, one) && asks_for(effects, other))
-      return std::string(one) + " and " + std::string(other) +
-             " do not go together: " + std::string(why);
+      return std::string(one) + " and " + std::string(other) + " " + std::string(why);
   return std::nullopt;
+}
+
+std::optional<std::string> beyond_haffs_law(const Json& effects) {
+  for (const std::string_view effect : change_haffs_law)
+    if (asks_for(effects, effect)) return std::string(effect);
+  return std::nullopt;
+}
+
+bool lose_energy_at_e_1(const Json& effects) {
+  return std::abs(effects.value("/roughness/beta"_json_pointer, 1.0)) < 1;
 }
 
 std::string effects_of_equilibration(const std::string& effects) {

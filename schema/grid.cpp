@@ -23,7 +23,7 @@ namespace {
 // Disks that touch six others each. [sigma^-2]
 constexpr double densest_disks = 2 / std::numbers::sqrt3;
 
-// What disks may be asked for beyond a constant e; another effect is refused beside d = 2, by name.
+// What is implemented for disks; another effect is refused beside d = 2, by name.
 constexpr std::array<std::string_view, 3> effects_of_disks = {"restitution", "shuffle",
                                                               "thermostat"};
 
@@ -213,7 +213,7 @@ class Examiner {
       for (const Json& one : expanded(listed.value)) {
         if (const auto why = nonsense(one)) throw fault(file_, listed.where, *why);
         has_one_restitution(source, one);
-        if (one.contains("thermostat")) loses_energy(source);
+        if (one.contains("thermostat") && !lose_energy_at_e_1(one)) loses_energy(source);
       }
     collides_between_shuffles(source, effects);
     has_both_species(source, effects);
@@ -313,14 +313,25 @@ class Examiner {
         throw fault(
             file_, where,
             "is not measured; expected \"" + observable + "\" among the observables of this grid");
-      const auto e = source.e();
-      if (quantity[0] != 'a' && (e.empty() || std::count(e.begin(), e.end(), 1.0) > 0))
-        throw fault(file_, where, "does not exist without a constant e below 1");
+      if (quantity[0] != 'a') cools_by_haff(source, where);
       if (wish.contains("tau")) within_run(source, where / "tau", wish["tau"], tau_max);
     }
   }
 
  private:
+  // gamma_ratio and tau_c compare with Haff's law.
+  void cools_by_haff(const Source& source, const Pointer& where) const {
+    const auto e = source.e();
+    if (e.empty() || std::count(e.begin(), e.end(), 1.0) > 0)
+      throw fault(file_, where, "does not exist without a constant e below 1");
+    for (const Json& one : expanded(source["effects"].value))
+      if (const auto effect = beyond_haffs_law(one))
+        throw fault(
+            file_, where,
+            "does not exist with " + *effect +
+                ", which changes Haff's law; expected a grid without it, or another target");
+  }
+
   void within_run(const Source& source, const Pointer& where, const Json& window,
                   const std::vector<double>& tau_max) const {
     const double from = window[0].get<double>(), to = window[1].get<double>();
@@ -377,7 +388,7 @@ class Examiner {
         if (std::find(effects_of_disks.begin(), effects_of_disks.end(), name) ==
             effects_of_disks.end())
           throw fault(file_, effects.where / name,
-                      "is an effect for spheres alone; expected d = 3 with it");
+                      "is not implemented for disks (d = 2); expected d = 3 with it");
   }
 
   void fits_in_box(const Placed& particles, double N, double n, int d) const {
@@ -415,7 +426,7 @@ class Examiner {
       if (item.value.get<double>() == 1)
         throw fault(file_, item.where,
                     "1 and a thermostat do not go together: an elastic gas would grow hotter "
-                    "without end; expected e < 1");
+                    "without end; expected e < 1, or roughness with beta between -1 and 1");
   }
 
   void collides_between_shuffles(const Source& source, const Placed& effects) const {

@@ -69,9 +69,7 @@ std::string identity(const Job& job) {
 }
 
 bool cools_by_haff(const Job& job) {
-  const auto effects = nlohmann::json::parse(job.effects);
-  return job.e.has_value() && !effects.contains("thermostat") && !effects.contains("roughness") &&
-         !effects.contains("mixture");
+  return job.e.has_value() && !beyond_haffs_law(nlohmann::json::parse(job.effects));
 }
 
 std::string series_identity(Job job) {

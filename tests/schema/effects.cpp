@@ -12,7 +12,7 @@ namespace {
 
 Grid parse(const std::string& effects) {
   return parse_grid(
-      R"({"e": 0.8, "n": 0.4, "N": 1000, "seeds": 1, "tau_max": 90, "effects": )" + effects + "}",
+      R"({"e": 0.8, "n": 0.4, "N": 1000, "seeds": 5, "tau_max": 90, "effects": )" + effects + "}",
       "g.json", {.bytes = 8e9, .bytes_per_particle = 200});
 }
 
@@ -148,11 +148,46 @@ TEST_CASE("effects: combinations without sense are refused by name") {
                      "effects": {"thermostat": {"rate": 1}}})",
                  "g.json", {.bytes = 8e9, .bytes_per_particle = 200}),
       "g.json: /e/1: 1 and a thermostat do not go together: an elastic gas would grow hotter "
-      "without end; expected e < 1",
+      "without end; expected e < 1, or roughness with beta between -1 and 1",
       GridError);
   CHECK(complaint(R"({"shuffle": {"every": 0.001}})") ==
         "g.json: /effects/shuffle/every: 0.001 is less than one collision of 1000 particles; "
         "expected at least 2/N = 0.002");
+}
+
+TEST_CASE("effects: a thermostat may heat elastic spheres where roughness loses energy") {
+  const auto asked = [](const std::string& beta) {
+    return parse_grid(R"({"e": 1, "n": 0.4, "N": 1000, "seeds": 1, "tau_max": 90, "effects":
+        {"thermostat": {"rate": 1}, "roughness": {"q": 0.4, "beta": )" +
+                          beta + "}}}",
+                      "g.json", {.bytes = 8e9, .bytes_per_particle = 200});
+  };
+  CHECK(asked("[-0.9, 0, 0.9]").grids.at(0).effects.size() == 3);
+  for (const char* beta : {"-1", "1", "[0, 1]"})
+    CHECK_THROWS_WITH_AS(
+        asked(beta),
+        "g.json: /e: 1 and a thermostat do not go together: an elastic gas would grow hotter "
+        "without end; expected e < 1, or roughness with beta between -1 and 1",
+        GridError);
+}
+
+TEST_CASE("effects: what compares with Haff's law is no target where they change it") {
+  const auto with = [](const std::string& asked, const std::string& target) {
+    return complaint(asked + R"(, "target": )" + target);
+  };
+  const std::string tau_c = R"({"tau_c": {"se": 1}})";
+  const std::string ratio = R"({"gamma_ratio": {"tau": [5, 15], "se": 0.01}})";
+  const std::string a2 = R"({"a2": {"tau": [5, 15], "se": 0.01}})";
+  const std::string heated = R"([{}, {"thermostat": {"rate": 1}}])";
+  CHECK(with(heated, tau_c) ==
+        "g.json: /target/tau_c: does not exist with thermostat, which changes Haff's law; expected "
+        "a grid without it, or another target");
+  CHECK(with(R"({"roughness": {"beta": 0.5, "q": 0.4}})", ratio)
+            .find("g.json: /target/gamma_ratio: does not exist with roughness") == 0);
+  CHECK(with(R"({"mixture": {"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": 0.1}})", tau_c)
+            .find("g.json: /target/tau_c: does not exist with mixture") == 0);
+  CHECK(with(heated, a2) == "no complaint");
+  CHECK(with(R"({"shuffle": {"every": 1}})", tau_c) == "no complaint");
 }
 
 TEST_CASE("effects: Haff's law is that of gases with an e which nobody heats") {
@@ -196,7 +231,11 @@ TEST_CASE("effects: a mixture refuses what is of equal spheres, by name") {
   const std::string mixture =
       R"("mixture": {"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": 0.1})";
   CHECK(complaint("{" + mixture + R"(, "roughness": {"beta": 0.5, "q": 0.4}})") ==
-        "g.json: /effects: mixture and roughness do not go together: rough spheres are equal ones");
+        "g.json: /effects: mixture and roughness are not implemented together: rough spheres are "
+        "equal ones");
+  CHECK(complaint("{" + mixture + R"(, "thermostat": {"rate": 1}})") ==
+        "g.json: /effects: mixture and thermostat are not implemented together: its noise is that "
+        "of equal masses");
   CHECK(complaint("{" + mixture + R"(, "shuffle": {"every": 1}})") ==
         "g.json: /effects: mixture and shuffle do not go together: species of different mass "
         "cannot exchange velocities");
@@ -204,9 +243,9 @@ TEST_CASE("effects: a mixture refuses what is of equal spheres, by name") {
         "g.json: /observables/1: \"clusters\" is of equal spheres; with a mixture expected "
         "\"temperature\" or \"laguerre\"");
   CHECK(complaint("{" + mixture + R"(}, "d": [3, 2])") ==
-        "g.json: /effects/mixture: is an effect for spheres alone; expected d = 3 with it");
+        "g.json: /effects/mixture: is not implemented for disks (d = 2); expected d = 3 with it");
   CHECK(complaint(R"({"roughness": {"beta": 0, "q": 0.4}}, "d": 2)") ==
-        "g.json: /effects/roughness: is an effect for spheres alone; expected d = 3 with it");
+        "g.json: /effects/roughness: is not implemented for disks (d = 2); expected d = 3 with it");
   CHECK(complaint(R"({"mixture": {"fraction": 1e-4, "diameter_ratio": 1, "mass_ratio": 1}})") ==
         "g.json: /effects/mixture/fraction: 0.0001 of 1000 particles leaves a species without any; "
         "expected at least one of each");
