@@ -5,25 +5,24 @@
 #include <cmath>
 #include <string_view>
 
+#include "schema/rules.hpp"
+
 namespace haff::schema {
 
 namespace {
 
-// Two that do not go together, or that nobody has written yet, and why: an effect's name, or
-// "effect/key=word" for one of its kinds.
+// Two that do not go together, or that nobody has written yet, and why.
 struct Exclusion {
   std::string_view one;
   std::string_view other;
   std::string_view why;
 };
 
-constexpr std::array<Exclusion, 4> exclusions{{
+constexpr std::array<Exclusion, 3> exclusions{{
     {"mixture", "roughness", "are not implemented together: rough spheres are equal ones"},
     {"mixture", "shuffle",
      "do not go together: species of different mass cannot exchange velocities"},
     {"mixture", "thermostat", "are not implemented together: its noise is that of equal masses"},
-    {"mixture", "restitution/law=viscoelastic",
-     "are not implemented together: A depends on the sizes and masses of a pair"},
 }};
 
 // Heated, or with more than one temperature.
@@ -31,21 +30,25 @@ constexpr std::array<std::string_view, 3> change_haffs_law{"mixture", "roughness
 
 constexpr std::array<std::string_view, 1> matter_in_equilibrium{"mixture"};
 
-bool asks_for(const Json& effects, std::string_view what) {
-  const std::string effect(what.substr(0, what.find('/')));
-  if (!effects.contains(effect)) return false;
-  if (effect.size() == what.size()) return true;
-  const std::string_view kind = what.substr(effect.size() + 1);
-  const std::size_t equals = kind.find('=');
-  return effects[effect].value(kind.substr(0, equals), "") == kind.substr(equals + 1);
+bool asks_for(const Json& effects, std::string_view effect) {
+  return effects.contains(std::string(effect));
 }
 
 }  // namespace
+
+std::optional<std::string> law_without_e(const Json& effects) {
+  const auto law = effects.value("/restitution/law"_json_pointer, std::string("constant"));
+  return decides_e(law) ? std::optional(law) : std::nullopt;
+}
 
 std::optional<std::string> nonsense(const Json& effects) {
   for (const auto& [one, other, why] : exclusions)
     if (asks_for(effects, one) && asks_for(effects, other))
       return std::string(one) + " and " + std::string(other) + " " + std::string(why);
+  if (const auto law = law_without_e(effects); law && asks_for(effects, "mixture"))
+    return "mixture and the " + *law +
+           " law are not implemented together: its strength depends on the sizes and masses of a "
+           "pair";
   return std::nullopt;
 }
 

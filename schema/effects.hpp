@@ -11,6 +11,10 @@ namespace haff::schema {
 
 // Here `effects` is one of those a grid asks for, without lists.
 
+// The law of restitution that gives every collision an e of its own, if they name one; there is
+// then no e to choose.
+std::optional<std::string> law_without_e(const Json& effects);
+
 // Why a gas cannot have all these effects at once, or nothing.
 std::optional<std::string> nonsense(const Json& effects);
 

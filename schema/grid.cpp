@@ -235,7 +235,7 @@ class Examiner {
       return std::vector<double>(std::max<std::size_t>(e.size(), 1), placed.value.get<double>());
     if (e.empty())
       throw fault(file_, placed.where,
-                  "is a map from e, which a viscoelastic gas does not have; expected a number");
+                  "is a map from e, which no gas of this grid has; expected a number");
     return matched(placed, e);
   }
 
@@ -404,14 +404,12 @@ class Examiner {
   // A constant e, or a law that gives every collision its own.
   void has_one_restitution(const Source& source, const Json& effects) const {
     const auto e = source.find("e");
-    const bool has_own = effects.value("/restitution/law"_json_pointer, "") == "viscoelastic";
-    if (e && has_own)
-      throw fault(
-          file_, e->where,
-          shown(e->value) +
-              " does not go together with the viscoelastic law, which gives every collision "
-              "an e of its own; expected one of the two");
-    if (!e && !has_own)
+    const auto law = law_without_e(effects);
+    if (e && law)
+      throw fault(file_, e->where,
+                  shown(e->value) + " does not go together with the " + *law +
+                      " law, which gives every collision an e of its own; expected one of the two");
+    if (!e && !law)
       throw fault(
           file_, source.where(),
           "has no \"e\"" +

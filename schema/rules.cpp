@@ -230,6 +230,13 @@ std::string description(const std::string& key) {
   return grid_properties()[key]["description"].get<std::string>();
 }
 
+bool decides_e(const std::string& law) {
+  for (const Json& condition : schema()["definitions"]["law"]["allOf"])
+    if (condition["if"]["properties"]["law"]["const"] == law)
+      return condition["then"].value("decides_e", false);
+  return false;
+}
+
 Json default_value(const std::string& key) {
   return grid_properties()[key].value("default", Json());
 }

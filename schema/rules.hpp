@@ -22,4 +22,7 @@ std::string description(const std::string& key);
 // The key's default, null if it has none.
 Json default_value(const std::string& key);
 
+// Whether a law of restitution leaves no e to choose.
+bool decides_e(const std::string& law);
+
 }  // namespace haff::schema

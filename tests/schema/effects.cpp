@@ -137,6 +137,12 @@ TEST_CASE("effects: viscoelastic spheres have no e") {
                        "g.json: has no \"e\"; expected a normal restitution coefficient, from 0 to "
                        "1, or a list of them",
                        GridError);
+  CHECK_THROWS_WITH_AS(asked(R"(, "effects": {"restitution": {"law": "viscoelastic", "A": 0.1},
+                             "mixture": {"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": 1}})"),
+                       "g.json: /effects: mixture and the viscoelastic law are not implemented "
+                       "together: its strength "
+                       "depends on the sizes and masses of a pair",
+                       GridError);
   CHECK(complaint(R"({"restitution": {"law": "viscoelastic", "A": 0.7}})") ==
         "g.json: /effects/restitution/A: 0.7 is not accepted; expected a strength of viscous "
         "dissipation [(sqrt(E(0)/m))^(-1/5)], above 0 and below 0.67, or a list of them");
