@@ -1,20 +1,18 @@
 #include "campaign/forecast.hpp"
 
-#include "campaign/calibration.hpp"
+#include <utility>
+
 #include "campaign/timetable.hpp"
 
 namespace haff::campaign {
 namespace {
 
-// CPU time below which a speed in the store says more about start-up than about collisions. [s]
+// CPU time below which a speed in the store says less than a trial would. [s]
 constexpr double trustworthy = 0.2;
 
 // A trial takes so long; in a plan of many gases those after the first ten take a tenth. [s]
-constexpr double trial_seconds = 0.15;
+constexpr double trial_seconds = 0.25;
 constexpr std::size_t trials_at_length = 10;
-
-// Large enough to tell the memory of a particle. [particles]
-constexpr std::uint32_t small_gas = 4000;
 
 // A particle in engine::State, which a worker that stores it holds once, and once more encoded.
 constexpr double state_bytes = 52;
@@ -26,56 +24,79 @@ constexpr double program_bytes = 12e6;
 constexpr double sample_bytes = 115;
 constexpr double job_bytes = 1000;
 
-constexpr int any_kind = -1;
-constexpr double any_e = -1;
+// Jobs of which this is equal are as fast as each other: it names all that is computed and measured
+// between two collisions. How they began, and from which seed, does not matter.
+std::string alike(schema::Job job) {
+  job.equilibrate = 0;
+  return schema::series_identity(job);
+}
 
-int number(schema::Kind kind) {
-  return kind == schema::Kind::equilibration ? 0 : 1;
+// The same for any e, which matters less: where no job of the same e has run, and in trials, which
+// are over before a gas that cools has become another than one that does not.
+std::string alike_but_for_e(schema::Job job) {
+  job.e = std::nullopt;
+  return alike(std::move(job));
+}
+
+// An equilibration ends where it can be stored.
+double end_of(const schema::Planned& plan) {
+  if (plan.job.kind == schema::Kind::cooling) return plan.tau_max;
+  return synchronization_tau(synchronization_at_or_after(plan.tau_max));
+}
+
+double sum_of(const Prices& prices, const schema::Planned& plan) {
+  const double end = end_of(plan);
+  double sum = prices.start + 0.5 * end * plan.job.particles * prices.collision;
+  Timetable timetable(plan.job, end, plan.checkpoint_every);
+  while (const auto stop = timetable.next()) {
+    if (stop->due == Stop::Due::synchronization) {
+      sum += prices.synchronization + (stop->keep ? prices.commit : 0);
+      continue;
+    }
+    sum += prices.sample;
+    if (has_profiles(plan.job, stop->tau)) sum += prices.profiles;
+    if (has_fields(plan.job, stop->tau)) sum += prices.fields;
+  }
+  return sum;
 }
 
 }  // namespace
 
 Forecast::Forecast(const std::vector<schema::JobRow>& known) {
-  for (const schema::JobRow& row : known) {
-    const auto& job = row.job;
-    for (const Gas& gas :
-         {Gas{job.d, job.n, job.particles, number(job.kind), job.e.value_or(any_e)},
-          Gas{job.d, job.n, job.particles, number(job.kind), any_e},
-          Gas{job.d, job.n, job.particles, any_kind, any_e}}) {
-      known_[gas].collisions += static_cast<double>(row.progress.collisions);
-      known_[gas].cpu_seconds += row.progress.cpu_seconds;
+  for (const schema::JobRow& row : known)
+    for (const std::string& which : {alike(row.job), alike_but_for_e(row.job)}) {
+      Work& work = known_[which];
+      work.collisions += static_cast<double>(row.progress.collisions);
+      work.cpu_seconds += row.progress.cpu_seconds;
     }
-  }
 }
 
-double Forecast::collisions_per_second(const schema::Job& job) {
-  for (const Gas& gas : {Gas{job.d, job.n, job.particles, number(job.kind), job.e.value_or(any_e)},
-                         Gas{job.d, job.n, job.particles, number(job.kind), any_e},
-                         Gas{job.d, job.n, job.particles, any_kind, any_e}}) {
-    const auto found = known_.find(gas);
+std::optional<double> Forecast::known_seconds_per_collision(const schema::Job& job) {
+  for (const std::string& which : {alike(job), alike_but_for_e(job)}) {
+    const auto found = known_.find(which);
     if (found == known_.end() || found->second.cpu_seconds < trustworthy) continue;
     used_store_ = true;
-    return found->second.collisions / found->second.cpu_seconds;
+    return found->second.cpu_seconds / found->second.collisions;
   }
-  return trial_speed(job);
+  return std::nullopt;
 }
 
-double Forecast::trial_speed(const schema::Job& job) {
-  const Gas gas{job.d, job.n, job.particles, any_kind, any_e};
-  const auto found = trial_speeds_.find(gas);
-  if (found != trial_speeds_.end()) return found->second;
-  const double seconds =
-      trial_speeds_.size() < trials_at_length ? trial_seconds : 0.1 * trial_seconds;
-  return trial_speeds_[gas] = calibrate(job.d, job.n, job.particles, seconds).collisions_per_second;
+const Prices& Forecast::prices(const schema::Planned& plan) {
+  const double seconds = tried_.size() < trials_at_length ? trial_seconds : 0.1 * trial_seconds;
+  const auto [place, is_new] = tried_.try_emplace(alike_but_for_e(plan.job));
+  if (is_new) place->second = try_out(plan.job, end_of(plan), seconds);
+  return place->second;
 }
 
 double Forecast::cpu_seconds(const schema::Planned& plan) {
-  return 0.5 * plan.tau_max * plan.job.particles / collisions_per_second(plan.job);
+  if (const auto known = known_seconds_per_collision(plan.job))
+    return 0.5 * end_of(plan) * plan.job.particles * *known;
+  return sum_of(prices(plan), plan);
 }
 
 double Forecast::memory_bytes(const schema::Job& job) {
-  const auto [place, is_new] = bytes_per_particle_.try_emplace({job.d, job.n}, 0);
-  if (is_new) place->second = calibrate(job.d, job.n, small_gas, 0).bytes_per_particle;
+  const auto [place, is_new] = bytes_per_particle_.try_emplace({job.d, job.n, job.effects}, 0);
+  if (is_new) place->second = bytes_per_particle(job);
   return program_bytes + (place->second + 2 * state_bytes) * job.particles;
 }
 

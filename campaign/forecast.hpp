@@ -2,18 +2,20 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "campaign/calibration.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {
 
 class Forecast {
  public:
-  // Speeds are taken from these jobs where they have run a gas of that density and size; others
-  // are tried out when first asked for.
+  // Speeds are taken from these jobs where they have run the same gas, with the same effects and
+  // measurements; others are tried out when first asked for.
   explicit Forecast(const std::vector<schema::JobRow>& known);
 
   double cpu_seconds(const schema::Planned& plan);  // from the start to tau_max
@@ -28,15 +30,14 @@ class Forecast {
     double collisions = 0;
     double cpu_seconds = 0;
   };
-  // Dimension, density, size, then kind and e, each -1 for any.
-  using Gas = std::tuple<int, double, std::uint32_t, int, double>;
 
-  double collisions_per_second(const schema::Job& job);
-  double trial_speed(const schema::Job& job);
+  std::optional<double> known_seconds_per_collision(const schema::Job& job);
+  const Prices& prices(const schema::Planned& plan);
 
-  std::map<Gas, Work> known_;
-  std::map<Gas, double> trial_speeds_;
-  std::map<std::pair<int, double>, double> bytes_per_particle_;  // by dimension and density
+  // By what makes a job fast or slow.
+  std::map<std::string, Work> known_;
+  std::map<std::string, Prices> tried_;
+  std::map<std::tuple<int, double, std::string>, double> bytes_per_particle_;  // d, n, effects
   bool used_store_ = false;
 };
 
