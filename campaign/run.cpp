@@ -291,6 +291,7 @@ Ended run_rounds(schema::Store& store, const RunOptions& options) {
   const auto start = Clock::now();
   for (;;) {
     const Ended ended = run_round(store, options, start);
+    keep_predictions(store);
     if (ended.over_limit || ended.store_error || stop_signal() != 0) return ended;
     std::optional<double> affordable = options.cpu_budget;
     if (affordable) *affordable -= cpu_seconds_of_the_buried();

@@ -179,10 +179,30 @@ std::string cpu_time_text(const Picture& picture) {
   return text;
 }
 
+// What a target was expected to take when its pilot runs were done, beside what it has taken.
+std::string predictions_text(const std::vector<TargetProgress>& targets) {
+  std::string text;
+  for (const TargetProgress& each : targets)
+    if (const auto& predicted = each.target.prediction)
+      text += fmt::format(
+          "{} (e {}, n {}, N {}): {} realizations and {} were expected after the pilot runs; {} "
+          "are "
+          "done and took {}\n",
+          describe(each.target), e_text(each.job), number_text(each.job.n),
+          count_text(each.job.particles),
+          count_text(static_cast<long long>(predicted->realizations)),
+          duration_text(predicted->cpu_seconds),
+          count_text(static_cast<long long>(each.estimate.count)),
+          duration_text(each.spent_cpu_seconds));
+  return text;
+}
+
 // Series, targets, failures, and what to do.
 void print_findings(const Picture& picture) {
   if (!picture.series.empty()) fmt::print("{}\n", series_table(picture.series));
   if (!picture.targets.empty()) fmt::print("{}\n", targets_table(picture.targets));
+  if (const std::string text = predictions_text(picture.targets); !text.empty())
+    fmt::print("{}\n", text);
   const std::string failures = failures_text(picture);
   if (!failures.empty()) fmt::print("{}\n", failures);
   fmt::print("{}", next_text(picture));
@@ -242,6 +262,11 @@ ordered_json series_json(const Series& series) {
   return object;
 }
 
+ordered_json prediction_json(const std::optional<schema::Prediction>& prediction) {
+  if (!prediction) return nullptr;
+  return {{"realizations", prediction->realizations}, {"cpu_seconds", prediction->cpu_seconds}};
+}
+
 ordered_json target_json(const TargetProgress& progress) {
   ordered_json object = physics_json(progress.job);
   const bool has_mean = progress.estimate.count > 0, has_error = progress.estimate.count > 1;
@@ -255,7 +280,10 @@ ordered_json target_json(const TargetProgress& progress) {
        {"mean", has_mean ? ordered_json(progress.estimate.mean) : ordered_json(nullptr)},
        {"se", has_error ? ordered_json(progress.estimate.standard_error) : ordered_json(nullptr)},
        {"half_interval", or_null(progress.half_interval)},
+       {"cpu_seconds", progress.spent_cpu_seconds},
        {"cpu_seconds_unplanned", progress.cpu_seconds},
+       {"cpu_seconds_to_come", progress.cpu_seconds_to_come()},
+       {"predicted", prediction_json(progress.target.prediction)},
        {"verdict", name(progress.verdict)}});
   return object;
 }

@@ -25,14 +25,31 @@ using analysis::Estimate;
 struct Runs {
   std::vector<schema::JobRow> rows;
   std::size_t open = 0;  // pending or running
+  double to_come = 0;    // CPU time of these, with equilibrations
 };
+
+bool is_open(const schema::JobRow& row) {
+  return row.status == schema::Status::pending || row.status == schema::Status::running;
+}
+
+double cpu_seconds_to_come(const schema::JobRow& row) {
+  if (!is_open(row)) return 0;
+  return row.expected_cpu_seconds.value_or(0) * std::max(0.0, 1 - row.progress.tau / row.tau_max);
+}
 
 std::map<std::string, Runs> runs_by_series(const schema::Reader& store) {
   std::map<std::string, Runs> all;
+  std::map<std::int64_t, double> before;  // of equilibrations, which come first in tables
   for (schema::JobRow& row : store.jobs()) {
-    if (row.job.kind != schema::Kind::cooling) continue;
+    if (row.job.kind != schema::Kind::cooling) {
+      before[row.job_id] = cpu_seconds_to_come(row);
+      continue;
+    }
     Runs& runs = all[schema::series_identity(row.job)];
-    runs.open += row.status == schema::Status::pending || row.status == schema::Status::running;
+    if (is_open(row)) {
+      ++runs.open;
+      runs.to_come += before[*row.equilibration_id] + cpu_seconds_to_come(row);
+    }
     runs.rows.push_back(std::move(row));
   }
   return all;
@@ -44,11 +61,15 @@ Quantity quantity_of(const schema::Target& target) {
           .to = target.tau_to};
 }
 
-double mean_cpu_seconds(const PilotSeries& series) {
+double spent_cpu_seconds(const PilotSeries& series) {
   double sum = 0;
   for (const Pilot& pilot : series.pilots)
     sum += pilot.cpu_seconds + pilot.equilibration_cpu_seconds;
-  return sum / static_cast<double>(series.pilots.size());
+  return sum;
+}
+
+double mean_cpu_seconds(const PilotSeries& series) {
+  return spent_cpu_seconds(series) / static_cast<double>(series.pilots.size());
 }
 
 // What the finished realizations say of a target.
@@ -81,6 +102,8 @@ std::string reason_for(const schema::Target& target, const Values& values,
 void judge(TargetProgress& progress, const Runs& runs, const PilotSeries& series) {
   const schema::Target& target = progress.target;
   const Values values = values_of(target, series);
+  progress.pending_cpu_seconds = runs.to_come;
+  progress.spent_cpu_seconds = spent_cpu_seconds(series);
   if (!values.all.empty()) progress.estimate = analysis::estimate(values.all);
   if (values.all.size() >= 2) {
     const double deviation = analysis::standard_deviation(progress.estimate);
@@ -90,16 +113,23 @@ void judge(TargetProgress& progress, const Runs& runs, const PilotSeries& series
         mean_cpu_seconds(series) * static_cast<double>(progress.expected - runs.rows.size());
   }
   const bool pilots_done = values.of_pilots.size() == target.pilots.size();
-  if (pilots_done)
+  if (pilots_done) {
+    const bool lies_ahead =
+        values.all.size() == target.pilots.size() || progress.expected > values.all.size();
+    if (lies_ahead)
+      progress.forecast = {progress.expected,
+                           mean_cpu_seconds(series) * static_cast<double>(progress.expected)};
     progress.half_interval = analysis::student_t(target.pilots.size() - 1) *
                              analysis::standard_deviation(analysis::estimate(values.of_pilots)) /
                              std::sqrt(static_cast<double>(values.all.size()));
+  }
   if (runs.open > 0) return;  // waiting
 
   if (!pilots_done || values.without > 0) {
     progress.verdict = Verdict::unreachable;
     progress.reason = reason_for(target, values, series);
     progress.cpu_seconds = 0;
+    progress.forecast = std::nullopt;
     return;
   }
   progress.next = analysis::next_realizations(progress.estimate, target.se);
@@ -110,6 +140,13 @@ void judge(TargetProgress& progress, const Runs& runs, const PilotSeries& series
 std::string verdict_text(const TargetProgress& progress) {
   const std::string text = name(progress.verdict);
   return progress.reason.empty() ? text : text + ": " + progress.reason;
+}
+
+// How many realizations there will be is not known before the pilot runs are done.
+std::string to_come_text(const TargetProgress& progress) {
+  const double seconds = progress.cpu_seconds_to_come();
+  if (seconds <= 0) return no_value;
+  return progress.expected > 0 ? duration_text(seconds) : "> " + duration_text(seconds);
 }
 
 // A realization and, unless it is there, its equilibration.
@@ -143,6 +180,10 @@ std::string name(Verdict verdict) {
   throw std::logic_error("unknown verdict");
 }
 
+std::string describe(const schema::Target& target) {
+  return describe(quantity_of(target));
+}
+
 std::vector<TargetProgress> progress_of(const schema::Reader& store,
                                         const std::vector<schema::Target>& targets) {
   if (targets.empty()) return {};
@@ -168,6 +209,35 @@ std::vector<TargetProgress> progress_of(const schema::Reader& store,
   return all;
 }
 
+std::vector<TargetProgress> progress_of(const std::vector<schema::Planned>& plan,
+                                        const std::vector<schema::Target>& targets) {
+  std::map<std::string, std::pair<const schema::Job*, Runs>> runs;
+  std::map<std::string, double> equilibrations;
+  for (const schema::Planned& each : plan)
+    if (each.job.kind == schema::Kind::equilibration)
+      equilibrations[schema::identity(each.job)] = each.expected_cpu_seconds.value_or(0);
+  for (const schema::Planned& each : plan) {
+    if (each.job.kind == schema::Kind::equilibration) continue;
+    auto& [job, all] = runs[schema::series_identity(each.job)];
+    job = &each.job;
+    ++all.open;
+    all.to_come += each.expected_cpu_seconds.value_or(0) +
+                   equilibrations[schema::identity(schema::equilibration_of(each.job))];
+  }
+  std::vector<TargetProgress> progress;
+  for (const schema::Target& target : targets) {
+    const auto& [job, all] = runs.at(target.series);
+    progress.push_back(
+        {.target = target, .job = *job, .planned = all.open, .pending_cpu_seconds = all.to_come});
+  }
+  return progress;
+}
+
+void keep_predictions(schema::Store& store) {
+  for (const TargetProgress& each : progress_of(store, store.targets()))
+    if (each.forecast && !each.target.prediction) store.predict(each.target, *each.forecast);
+}
+
 double cpu_seconds_unplanned(const std::vector<TargetProgress>& targets) {
   std::map<std::string, double> by_series;
   for (const TargetProgress& each : targets) {
@@ -191,7 +261,7 @@ std::string targets_table(const std::vector<TargetProgress>& targets) {
                    {"95 % interval"},
                    {"runs"},
                    {"expected"},
-                   {"to plan"},
+                   {"CPU time to come"},
                    {"", Align::left}});
   for (const TargetProgress& each : targets) {
     const Estimate& estimate = each.estimate;
@@ -202,8 +272,7 @@ std::string targets_table(const std::vector<TargetProgress>& targets) {
                each.half_interval ? fmt::format("± {:.1e}", *each.half_interval) : no_value,
                count_text(static_cast<long long>(estimate.count)),
                each.expected > 0 ? count_text(static_cast<long long>(each.expected)) : no_value,
-               each.cpu_seconds > 0 ? duration_text(each.cpu_seconds) : no_value,
-               verdict_text(each)});
+               to_come_text(each), verdict_text(each)});
   }
   return table.text();
 }

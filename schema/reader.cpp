@@ -183,16 +183,24 @@ std::optional<Invariants> Reader::invariants(std::int64_t job_id) const {
 
 std::vector<Target> Reader::targets() const {
   return database_->guarded([&] {
-    SQLite::Statement row(database_->sqlite(),
-                          "SELECT * FROM targets ORDER BY series, quantity, tau_from, tau_to");
+    SQLite::Statement row(
+        database_->sqlite(),
+        "SELECT * FROM targets "
+        "LEFT JOIN target_predictions USING (series, quantity, tau_from, tau_to, se) "
+        "ORDER BY series, quantity, tau_from, tau_to");
     std::vector<Target> targets;
-    while (row.executeStep())
+    while (row.executeStep()) {
       targets.push_back({.series = text(row, "series"),
                          .quantity = text(row, "quantity"),
                          .tau_from = real(row, "tau_from"),
                          .tau_to = real(row, "tau_to"),
                          .se = real(row, "se"),
                          .pilots = seeds_in(text(row, "pilots"))});
+      if (!row.isColumnNull("realizations"))
+        targets.back().prediction = {
+            .realizations = static_cast<std::size_t>(integer(row, "realizations")),
+            .cpu_seconds = real(row, "cpu_seconds")};
+    }
     return targets;
   });
 }

@@ -356,6 +356,23 @@ void Store::add(const std::vector<Target>& targets) {
   });
 }
 
+void Store::predict(const Target& target, const Prediction& prediction) {
+  database().transaction([&] {
+    SQLite::Statement statement(database().sqlite(), R"(
+      INSERT INTO target_predictions
+      VALUES (:series, :quantity, :tau_from, :tau_to, :se, :realizations, :cpu_seconds, )" +
+                                                         now + ") ON CONFLICT DO NOTHING");
+    statement.bind(":series", target.series);
+    statement.bind(":quantity", target.quantity);
+    statement.bind(":tau_from", target.tau_from);
+    statement.bind(":tau_to", target.tau_to);
+    statement.bind(":se", target.se);
+    statement.bind(":realizations", static_cast<std::int64_t>(prediction.realizations));
+    statement.bind(":cpu_seconds", prediction.cpu_seconds);
+    statement.exec();
+  });
+}
+
 std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_version) {
   return database().transaction([&]() -> std::optional<Claim> {
     SQLite::Statement statement(database().sqlite(), R"(

@@ -284,6 +284,9 @@ class Store : public Reader {
   // what is already known of the results does not choose them.
   void add(const std::vector<Target>& targets);
 
+  // Keep what a target of the store is expected to take. What was expected first stays.
+  void predict(const Target& target, const Prediction& prediction);
+
   // Take a job that can be run: equilibrations first, then those whose remaining time is longest,
   // so that the last ones to finish are short. Nothing if none can be run now (see Summary).
   std::optional<Claim> claim(const Owner& owner, const std::string& code_version);

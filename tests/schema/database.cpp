@@ -43,7 +43,7 @@ TEST_CASE("a new store is marked as one") {
   Store::create(folder / "a.db");
   SQLite::Database sqlite = plain(folder / "a.db");
   CHECK(sqlite.execAndGet("PRAGMA application_id").getInt() == application_id);
-  CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 6);
+  CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 7);
   CHECK(sqlite.execAndGet("PRAGMA journal_mode").getString() == "wal");
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("every table is strict") {
             .execAndGet("SELECT count(*) FROM pragma_table_list WHERE type = 'table' AND "
                         "name NOT LIKE 'sqlite_%' AND NOT strict")
             .getInt() == 0);
-  CHECK(sqlite.execAndGet("SELECT count(*) FROM pragma_table_list WHERE strict").getInt() == 10);
+  CHECK(sqlite.execAndGet("SELECT count(*) FROM pragma_table_list WHERE strict").getInt() == 11);
 }
 
 TEST_CASE("the statuses of the store are those of the program, in order") {
@@ -203,7 +203,7 @@ TEST_CASE("SQLite refuses writes through a reader's connection") {
   const TemporaryFolder folder;
   Store::create(folder / "a.db").add(plan({cooling()}));
   Database reader(folder / "a.db", Access::read);
-  for (const char* sql : {"DELETE FROM jobs", "CREATE TABLE t (x)", "PRAGMA user_version = 6",
+  for (const char* sql : {"DELETE FROM jobs", "CREATE TABLE t (x)", "PRAGMA user_version = 7",
                           "PRAGMA query_only = OFF; DELETE FROM jobs"}) {
     CAPTURE(sql);
     try {
@@ -214,7 +214,7 @@ TEST_CASE("SQLite refuses writes through a reader's connection") {
     }
   }
   CHECK(Reader(folder / "a.db").jobs().size() == 2);
-  CHECK(reader.sqlite().execAndGet("PRAGMA user_version").getInt() == 6);
+  CHECK(reader.sqlite().execAndGet("PRAGMA user_version").getInt() == 7);
 }
 
 TEST_CASE("readers see a store that a killed writer left with its log") {

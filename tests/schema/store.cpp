@@ -147,6 +147,44 @@ TEST_CASE("a target that is planned again changes its error, not its pilot runs"
   CHECK(targets[0].pilots == std::vector<std::uint64_t>{1, 2, 3, 4, 5});
 }
 
+TEST_CASE("what was expected of a target first is kept, for each standard error") {
+  Store store = Store::create(":memory:");
+  Target target{
+      .series = series_identity(cooling()), .quantity = "a2", .se = 1e-3, .pilots = {1, 2, 3}};
+  store.add(std::vector{target});
+  CHECK_FALSE(store.targets()[0].prediction);
+  store.predict(target, {.realizations = 20, .cpu_seconds = 3.5});
+  store.predict(target, {.realizations = 30, .cpu_seconds = 4.5});
+  REQUIRE(store.targets()[0].prediction);
+  CHECK(store.targets()[0].prediction->realizations == 20);
+  CHECK(store.targets()[0].prediction->cpu_seconds == 3.5);
+  target.se = 5e-4;
+  store.add(std::vector{target});
+  CHECK_FALSE(store.targets()[0].prediction);
+}
+
+TEST_CASE("a prediction stands beside its outcome") {
+  Store store = Store::create(":memory:");
+  auto jobs = plan({cooling(0.8, 1), cooling(0.8, 2), cooling(0.9, 1)});
+  store.add(jobs);
+  const Target target{
+      .series = series_identity(cooling(0.8)), .quantity = "a2", .se = 1e-3, .pilots = {1, 2}};
+  store.add(std::vector{target});
+  store.predict(target, {.realizations = 2, .cpu_seconds = 9});
+  while (const auto claim = store.claim(me, "test"))
+    store.finish(claim->lease,
+                 {.checkpoint = Checkpoint{.tau = claim->tau_max},
+                  .progress = {.tau = claim->tau_max, .cpu_seconds = 2}},
+                 claim->job.kind == Kind::cooling ? std::optional(Results{}) : std::nullopt,
+                 claim->tau_max);
+  auto rows = store.query(
+      "SELECT predicted_realizations, realizations, predicted_cpu_seconds, cpu_seconds "
+      "FROM target_outcomes");
+  const auto row = rows.next();
+  REQUIRE(row);
+  CHECK(*row == Row{std::int64_t{2}, std::int64_t{2}, 9.0, 8.0});
+}
+
 // ---- claiming ---------------------------------------------------------------------------------
 
 TEST_CASE("equilibrations come first, cooling when its own is done") {
