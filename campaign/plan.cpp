@@ -111,15 +111,28 @@ void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcome
 void print_targets(const std::vector<TargetProgress>& targets) {
   if (targets.empty()) return;
   fmt::print("\n{}\n", targets_table(targets));
-  const bool unknown = std::ranges::any_of(
-      targets, [](const TargetProgress& target) { return target.expected == 0; });
   if (const double more = cpu_seconds_unplanned(targets); more > 0)
     fmt::print("Beyond the jobs above, targets will take some {} of CPU time.\n",
                duration_text(more));
-  if (unknown)
+  const auto unknown = std::ranges::find(targets, 0U, &TargetProgress::expected);
+  if (unknown != targets.end())
     fmt::print(
-        "A target's pilot runs, the seeds of the grid, tell how many realizations it takes: "
-        "plan again once they\nare done, or look at `status`; `run` goes on by itself.\n");
+        "A target's pilot runs, the {} seeds of the grid, come first. They tell how many "
+        "realizations it takes:\nplan again once they are done, or look at `status`; `run` adds "
+        "the "
+        "others by itself.\n",
+        unknown->target.pilots.size());
+}
+
+// Those the store does not have yet as they will be.
+std::vector<TargetProgress> preview(const schema::Reader& store, const std::vector<Planned>& jobs,
+                                    const std::vector<schema::Target>& targets) {
+  std::vector<TargetProgress> all;
+  for (TargetProgress& planned : progress_of(jobs, targets)) {
+    std::vector<TargetProgress> there = progress_of(store, {planned.target});
+    all.push_back(std::move(there.empty() ? planned : there.front()));
+  }
+  return all;
 }
 
 void print_next(const PlanOptions& options) {
@@ -142,6 +155,7 @@ int plan(const PlanOptions& options) {
     expect(jobs, forecast);
     const std::vector<Outcome> outcomes = store.add(jobs);
     store.add(targets);
+    keep_predictions(store);
     print(jobs, outcomes, forecast, false);
     print_targets(progress_of(store, targets));
   } else if (std::filesystem::exists(options.store)) {
@@ -149,11 +163,12 @@ int plan(const PlanOptions& options) {
     Forecast forecast(store.jobs());
     expect(jobs, forecast);
     print(jobs, store.preview(jobs), forecast, true);
-    print_targets(progress_of(store, targets));
+    print_targets(preview(store, jobs, targets));
   } else {
     Forecast forecast({});
     expect(jobs, forecast);
     print(jobs, std::vector(jobs.size(), Outcome::added), forecast, true);
+    print_targets(progress_of(jobs, targets));
   }
   print_next(options);
   return exit_complete;

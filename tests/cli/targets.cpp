@@ -93,6 +93,52 @@ TEST_CASE("targets: plan and status tell from the pilot runs what is still to co
         target["cpu_seconds_unplanned"].get<double>());
 }
 
+TEST_CASE("targets: what the pilot runs let expect is kept beside what it took") {
+  const Folder folder;
+  const Outcome outcome = run(folder, R"("a2": {"tau": [5, 10], "se": 0.006})");
+  CHECK(outcome.out.find("were expected after the pilot runs") != std::string::npos);
+  CHECK(number(folder, "SELECT count(*) FROM target_outcomes") == 1);
+  CHECK(number(folder, "SELECT predicted_realizations FROM target_outcomes") > 5);
+  CHECK(number(folder, "SELECT predicted_cpu_seconds FROM target_outcomes") > 0);
+  CHECK(number(folder, "SELECT realizations FROM target_outcomes") == number(folder, realizations));
+  CHECK(number(folder, "SELECT cpu_seconds FROM target_outcomes") ==
+        doctest::Approx(number(folder, "SELECT sum(cpu_seconds) FROM jobs")));
+  const double predicted = number(folder, "SELECT predicted_realizations FROM target_outcomes");
+  const auto status = nlohmann::json::parse(campaign(folder, {"status", "--json"}).out);
+  CHECK(status["targets"][0]["predicted"]["realizations"] == predicted);
+}
+
+TEST_CASE("targets: plan --dry-run says that pilot runs come first") {
+  const Folder folder;
+  folder.write("grid.json", grid(R"("a2": {"tau": [5, 10], "se": 1e-3})"));
+  const Outcome outcome = campaign(folder, {"plan", "grid.json", "--dry-run"});
+  CHECK(outcome.out.find("a2, tau 5 to 10") != std::string::npos);
+  CHECK(outcome.out.find("pilot runs, the 5 seeds of the grid, come first") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder.store()));
+  // The same of a target that a store does not have yet.
+  folder.write("other.json", R"({"e": 0.8, "n": 0.4, "N": 200, "seeds": 5, "tau_max": 10})");
+  campaign(folder, {"plan", "other.json"});
+  const Outcome later = campaign(folder, {"plan", "grid.json", "--dry-run"});
+  CHECK(later.out.find("come first") != std::string::npos);
+  CHECK(number(folder, realizations) == 5);
+}
+
+TEST_CASE("targets: what is to come is what is pending and what is not planned yet") {
+  const Folder folder;
+  folder.write("grid.json", grid(R"("a2": {"tau": [5, 10], "se": 1e-4})"));
+  const auto target = [&] {
+    return nlohmann::json::parse(campaign(folder, {"status", "--json"}).out)["targets"][0];
+  };
+  campaign(folder, {"plan", "grid.json"});
+  CHECK(target()["cpu_seconds_to_come"].get<double>() ==
+        doctest::Approx(number(folder, "SELECT sum(expected_cpu_seconds) FROM jobs")));
+  CHECK(campaign(folder, {"plan", "grid.json"}).out.find("> 0.0") != std::string::npos);
+  campaign(folder, {"run", "--budget", "0.1s"});
+  const auto later = target();
+  CHECK(later["cpu_seconds_to_come"].get<double>() >= later["cpu_seconds_unplanned"].get<double>());
+  CHECK(later["cpu_seconds_unplanned"].get<double>() > 0);
+}
+
 TEST_CASE("targets: one that more runs cannot reach says why") {
   const Folder folder;
   const Outcome outcome = run(folder, R"("tau_c": {"se": 1})");
