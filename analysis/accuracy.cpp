@@ -39,6 +39,11 @@ double standard_deviation(const Estimate& estimate) {
   return estimate.standard_error * std::sqrt(static_cast<double>(estimate.count));
 }
 
+double half_interval(const Estimate& scatter, std::size_t count, double confidence) {
+  return student_t(scatter.count - 1, confidence) * standard_deviation(scatter) /
+         std::sqrt(static_cast<double>(count));
+}
+
 std::vector<GroupScatter> group_scatter(std::span<const double> values, std::size_t fewest_groups) {
   std::vector<GroupScatter> all;
   for (std::size_t size = 1; values.size() / size >= std::max<std::size_t>(fewest_groups, 2);

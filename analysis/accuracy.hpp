@@ -5,7 +5,8 @@
 //   group means:           means of g values each scatter by s g^-1/2 if values are independent
 //   until it is enough:    while s_R / sqrt(R) of all R values exceeds se, go on to min(2 R,
 //                          s_R^2 / se^2) of them. How many there will be depends on scatters alone,
-//                          and the mean of normal values does not: it is unbiased, and
+//                          and the mean of normal values does not: it is unbiased (of a skewed
+//                          distribution it is not quite: few large values make both), and
 //                          mean +- t s / sqrt(R) with the s of the R_0 pilot values and R_0 - 1
 //                          degrees keeps its coverage exactly, as in the two stages of C. Stein,
 //                          Ann. Math. Stat. 16, 243 (1945). With s_R in its place the interval
@@ -29,6 +30,11 @@ double student_t(std::size_t degrees, double confidence = usual_confidence);
 
 // sqrt(sum (x - mean)^2 / (N - 1)): of one value, where estimate() gives that of the mean.
 double standard_deviation(const Estimate& estimate);
+
+// Half the interval of the mean of `count` values that scatter as these do, which are among them:
+// all of them, or the pilot values where scatter has decided how many there are.
+double half_interval(const Estimate& scatter, std::size_t count,
+                     double confidence = usual_confidence);
 
 // Means of disjoint groups of neighbouring values.
 struct GroupScatter {
