@@ -1,5 +1,6 @@
-// Error against CPU time, log-log, a picture a gas: measured scatter of group means, the line of
-// slope -1/2, and the shift of finite size, which no CPU time removes.
+// Error against CPU time, log-log, a picture a gas with a panel a quantity: measured scatter of
+// group means, the line of slope -1/2, and shifts, which no CPU time removes: of finite size, and
+// of any other cause that is seen.
 #pragma once
 
 #include <filesystem>

@@ -24,7 +24,7 @@ constexpr std::ptrdiff_t many_entries = 8;
 constexpr std::array<double, 4> full_frame = {0.15, 0.965, 0.215, 0.975};
 
 // The caption: characters of a line that fit the picture in any font likely to be there, lines that
-// have room below the axes, and their distance in fractions of the picture.
+// have room below the axes, and their distance in fractions of a picture 480 high.
 constexpr std::size_t caption_width = 90;  // of a picture 640 wide
 constexpr std::size_t caption_lines = 2;
 constexpr double caption_spacing = 0.031;
@@ -333,12 +333,13 @@ std::string gnuplot_script(const Plot& plot, const std::filesystem::path& pictur
       wrapped(bound(plot.caption), caption_width * static_cast<std::size_t>(plot.width) / 640);
   const auto spare = static_cast<double>(std::max(lines.size(), caption_lines) - caption_lines);
   std::string caption;
-  double height = 0.07 + spare * caption_spacing;
+  const double scale = 480.0 / plot.height;
+  double height = (0.07 + spare * caption_spacing) * scale;
   for (const std::string& line : lines) {
     caption += fmt::format(
         "set label {} at screen 0.02, screen {} left noenhanced font ',9.5' tc rgb '#555555'\n",
         in_quotes(line), height);
-    height -= caption_spacing;
+    height -= caption_spacing * scale;
   }
 
   auto first_frame = full_frame;
@@ -377,12 +378,12 @@ std::string gnuplot_script(const Plot& plot, const std::filesystem::path& pictur
   // Arial is what viewers of SVG have or replace by its like (Liberation Sans on Debian).
   const std::string terminal =
       format == Format::svg
-          ? fmt::format("svg size {},480 enhanced font 'Arial,12' fontscale 1.3 background 'white'",
-                        plot.width)
+          ? fmt::format("svg size {},{} enhanced font 'Arial,12' fontscale 1.3 background 'white'",
+                        plot.width, plot.height)
           : fmt::format(
-                "pngcairo size {},960 enhanced font 'Arial,12' fontscale 2 linewidth 2 "
+                "pngcairo size {},{} enhanced font 'Arial,12' fontscale 2 linewidth 2 "
                 "pointscale 2",
-                2 * plot.width);
+                2 * plot.width, 2 * plot.height);
   return "set encoding utf8\nset terminal " + terminal + "\nset output " +
          in_quotes(picture.string()) + "\n" + blocks +
          "set border 15 lw 1\nset tics in scale 0.8,0.4\n"

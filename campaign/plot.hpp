@@ -67,7 +67,8 @@ struct Panel {
 struct Plot {
   std::vector<Panel> panels;  // one without a frame fills the picture; same columns
   std::string caption = {};   // plain text
-  int width = 640;            // of the picture [pixels], 480 high
+  int width = 640;            // of the picture [pixels]
+  int height = 480;
 };
 
 // Least and largest y of what these curves draw, error bars included; {0, 1} if there is nothing.
