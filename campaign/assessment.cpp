@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
+#include <stdexcept>
+#include <utility>
 
 #include "analysis/energy_equation.hpp"
 #include "analysis/statistics.hpp"
@@ -21,16 +24,10 @@ using analysis::Estimate;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Where a_2 of 0.8 <= e < 1 is near its plateau, before velocity correlations draw it back. [tau]
-constexpr double plateau_from = 5, plateau_to = 15;
-
-// gamma is averaged over so much to either side of these tau.
+// gamma: at the plateau of a_2, and where velocity correlations are seen. [tau]
 constexpr double decay_at[] = {10, 50};
-constexpr double decay_reach = 2;
 
-// G_parallel: a distance beyond the cells of its mesh and within a small box; the paper's tau.
-// [sigma]
-constexpr double correlation_r = 5;
+// G_parallel: the paper's. [tau]
 constexpr double correlation_tau = 50;
 
 // Every second and every fifth sample.
@@ -46,21 +43,48 @@ std::optional<double> latest_correlation(const std::vector<const PilotSeries*>& 
   return latest;
 }
 
-std::vector<Quantity> quantities_of(const std::vector<const PilotSeries*>& gas) {
-  std::vector<Quantity> all{{.measure = Measure::a2, .from = plateau_from, .to = plateau_to},
-                            {.measure = Measure::a3, .from = plateau_from, .to = plateau_to}};
-  for (const double tau : decay_at)
-    all.push_back(
-        {.measure = Measure::gamma_ratio, .from = tau - decay_reach, .to = tau + decay_reach});
+bool decays(const schema::Job& job) {
+  return cools_by_haff(job) && *job.e < 1;
+}
+
+bool has_target(const std::vector<const PilotSeries*>& gas, const schema::Target& target) {
+  return std::ranges::any_of(gas, [&](const PilotSeries* series) {
+    return schema::series_identity(series->job) == target.series;
+  });
+}
+
+bool has_tau_c(const std::vector<const PilotSeries*>& gas) {
+  return std::ranges::any_of(gas, [](const PilotSeries* series) {
+    return std::ranges::any_of(series->pilots,
+                               [](const Pilot& pilot) { return pilot.tau_c.has_value(); });
+  });
+}
+
+struct Wanted {
+  const std::vector<schema::Target>& targets;
+  const std::vector<Quantity>& asked;
+};
+
+std::vector<Quantity> quantities_of(const std::vector<const PilotSeries*>& gas,
+                                    const Wanted& wanted) {
+  std::vector<Quantity> all{usual_quantity(Measure::a2), usual_quantity(Measure::a3)};
   const schema::Job& job = gas.front()->job;
-  if (job.d == 3 && cools_by_haff(job) && *job.e < 1) {
-    // One tau for all sizes, whatever their own tau_c.
-    const double tau = std::round(analysis::energy_equation_tau_c({.e = *job.e, .n = job.n}));
-    all.push_back({.measure = Measure::ln_temperature, .from = tau, .to = tau});
-  }
-  all.push_back({.measure = Measure::tau_c});
-  if (const auto tau = latest_correlation(gas))
-    all.push_back({.measure = Measure::correlation, .from = *tau, .to = *tau, .r = correlation_r});
+  if (decays(job))
+    for (const double tau : decay_at) all.push_back(usual_quantity(Measure::gamma_ratio, tau));
+  if (job.d == 3 && decays(job))  // one tau for all sizes, whatever their own tau_c
+    all.push_back(
+        usual_quantity(Measure::ln_temperature,
+                       std::round(analysis::energy_equation_tau_c({.e = *job.e, .n = job.n}))));
+  if (decays(job) || has_tau_c(gas)) all.push_back(usual_quantity(Measure::tau_c));
+  all.push_back(
+      usual_quantity(Measure::correlation, latest_correlation(gas).value_or(correlation_tau)));
+
+  const auto add = [&](const Quantity& quantity) {
+    if (std::ranges::find(all, quantity) == all.end()) all.push_back(quantity);
+  };
+  for (const schema::Target& target : wanted.targets)
+    if (has_target(gas, target)) add(quantity_of(target));
+  for (const Quantity& quantity : wanted.asked) add(quantity);
   return all;
 }
 
@@ -86,7 +110,17 @@ double mean_cpu_seconds(const Quantity& quantity, const PilotSeries& series) {
   return sum / static_cast<double>(series.pilots.size());
 }
 
-std::optional<Statistics> statistics_of(const Quantity& quantity, const PilotSeries& series) {
+// The target that the series was run for, if it was run for one of this quantity.
+const schema::Target* target_of(const Quantity& quantity, const PilotSeries& series,
+                                const std::vector<schema::Target>& targets) {
+  const auto found = std::ranges::find_if(targets, [&](const schema::Target& target) {
+    return quantity_of(target) == quantity && target.series == schema::series_identity(series.job);
+  });
+  return found == targets.end() ? nullptr : &*found;
+}
+
+std::optional<Statistics> statistics_of(const Quantity& quantity, const PilotSeries& series,
+                                        const std::vector<schema::Target>& targets) {
   const auto values = values_of(quantity, series);
   if (values.empty()) return std::nullopt;
   const Estimate estimate = analysis::estimate(values);
@@ -96,6 +130,7 @@ std::optional<Statistics> statistics_of(const Quantity& quantity, const PilotSer
                     .mean = estimate.mean,
                     .error = estimate.standard_error,
                     .half_interval = none,
+                    .interval_runs = values.size(),
                     .deviation = none,
                     .cpu_seconds = mean_cpu_seconds(quantity, series),
                     .unfinished = unfinished(quantity, series)};
@@ -107,7 +142,12 @@ std::optional<Statistics> statistics_of(const Quantity& quantity, const PilotSer
     }
     return result;
   }
-  result.half_interval = analysis::student_t(values.size() - 1) * estimate.standard_error;
+  result.half_interval = analysis::half_interval(estimate, values.size());
+  if (const schema::Target* target = target_of(quantity, series, targets))
+    if (const auto half = half_interval(*target, series)) {
+      result.half_interval = *half;
+      result.interval_runs = target->pilots.size();
+    }
   result.deviation = analysis::standard_deviation(estimate);
   result.scatter = analysis::group_scatter(values);
   if (result.scatter.size() > 1 && result.deviation > 0)
@@ -197,11 +237,11 @@ void add_paired_shift(const Quantity& quantity, const PilotSeries& series, Cause
   }
   if (differences.size() < 2) return;
   const Estimate shift = analysis::estimate(differences);
-  if (shift.mean == 0 && shift.standard_error == 0) return;  // it looks at the same samples
+  const bool same = shift.mean == 0 && shift.standard_error == 0;
   shifts.push_back({.quantity = quantity,
                     .job = series.job,
                     .cause = cause,
-                    .change = change,
+                    .change = change + (same ? ": the same samples" : ""),
                     .value = shift.mean,
                     .error = shift.standard_error});
 }
@@ -227,14 +267,9 @@ void add_sampling_shifts(const Quantity& quantity, const PilotSeries& series,
       [&](const Pilot& pilot) { return value_of(half, job, pilot); }, shifts);
 }
 
-// The same states on wider cells, at the end of the runs.
-void add_mesh_shift(const PilotSeries& series, std::vector<Shift>& shifts) {
-  const auto& first = series.pilots.front().mesh;
-  if (!first) return;
-  const Quantity quantity{.measure = Measure::correlation,
-                          .from = first->usual.tau,
-                          .to = first->usual.tau,
-                          .r = correlation_r};
+// The same states on wider cells: those that are stored, at the end of the runs.
+void add_mesh_shift(Quantity quantity, const PilotSeries& series, std::vector<Shift>& shifts) {
+  quantity.from = quantity.to = series.pilots.front().mesh->usual.tau;
   std::vector<double> values, differences;
   for (const Pilot& pilot : series.pilots) {
     if (!pilot.mesh || pilot.mesh->usual.tau != quantity.to) continue;
@@ -249,33 +284,117 @@ void add_mesh_shift(const PilotSeries& series, std::vector<Shift>& shifts) {
   shifts.push_back({.quantity = quantity,
                     .job = series.job,
                     .cause = Cause::mesh,
-                    .change = fmt::format("cells of {:g} sigma, not 1, of {:.1e}", wide_cell,
-                                          analysis::estimate(values).mean),
+                    .change = fmt::format("cells of {:g} sigma, not 1, at tau {:g}: of {:.1e}",
+                                          wide_cell, quantity.to, analysis::estimate(values).mean),
                     .value = shift.mean,
                     .error = shift.standard_error});
 }
 
 // ---- all --------------------------------------------------------------------------------------
 
-// Of those with the most particles in all realizations together the noise is least.
-const PilotSeries& quietest(const std::vector<const PilotSeries*>& gas) {
-  return **std::ranges::max_element(gas, {}, [](const PilotSeries* series) {
-    return static_cast<double>(series->job.particles) * static_cast<double>(series->pilots.size());
-  });
+// Of those with the most particles in all realizations together the noise is least; of equals the
+// largest gas is nearest to an infinite one. Nothing if none has two values, or each run its tau_c.
+const PilotSeries* quietest(const Quantity& quantity, const std::vector<const PilotSeries*>& gas) {
+  const PilotSeries* best = nullptr;
+  std::pair<double, std::uint32_t> most;
+  for (const PilotSeries* series : gas) {
+    const std::size_t realizations = values_of(quantity, *series).size();
+    if (realizations < 2 || unfinished(quantity, *series) > 0) continue;
+    const std::pair here(
+        static_cast<double>(series->job.particles) * static_cast<double>(realizations),
+        series->job.particles);
+    if (best != nullptr && here <= most) continue;
+    best = series;
+    most = here;
+  }
+  return best;
 }
 
-void assess_gas(const std::vector<const PilotSeries*>& gas, Assessment& assessment) {
-  for (const Quantity& quantity : quantities_of(gas)) {
-    for (const PilotSeries* series : gas)
-      if (auto statistics = statistics_of(quantity, *series))
-        assessment.statistics.push_back(*std::move(statistics));
-    for (const Condition& condition : conditions)
-      add_condition_shifts(condition, quantity, gas, assessment.shifts);
-    add_sampling_shifts(quantity, quietest(gas), assessment.shifts);
+// Those whose stored states are nearest to the quantity's tau.
+std::vector<const PilotSeries*> nearest_meshed(const Quantity& quantity,
+                                               std::vector<const PilotSeries*> gas) {
+  std::erase_if(gas, [](const PilotSeries* series) { return !series->pilots.front().mesh; });
+  const auto distance = [&](const PilotSeries* series) {
+    return std::abs(series->pilots.front().mesh->usual.tau - quantity.to);
+  };
+  if (gas.empty()) return gas;
+  const double least = distance(*std::ranges::min_element(gas, {}, distance));
+  std::erase_if(gas, [&](const PilotSeries* series) { return distance(series) > least; });
+  return gas;
+}
+
+void add_shifts(const Quantity& quantity, const std::vector<const PilotSeries*>& gas,
+                std::vector<Shift>& shifts) {
+  for (const Condition& condition : conditions)
+    add_condition_shifts(condition, quantity, gas, shifts);
+  if (const PilotSeries* series = quietest(quantity, gas))
+    add_sampling_shifts(quantity, *series, shifts);
+  if (quantity.measure == Measure::correlation)
+    if (const PilotSeries* series = quietest(quantity, nearest_meshed(quantity, gas)))
+      add_mesh_shift(quantity, *series, shifts);
+}
+
+// What may move the quantity at all: a correlation is of one state, others of samples.
+bool is_moved(const Quantity& quantity, Cause cause) {
+  const bool is_of_mesh = quantity.measure == Measure::correlation;
+  switch (cause) {
+    case Cause::mesh:
+      return is_of_mesh;
+    case Cause::sampling:
+      return !is_of_mesh;
+    case Cause::averaging:
+      return quantity.from < quantity.to;
+    default:
+      return true;
   }
-  auto meshed = gas;
-  std::erase_if(meshed, [](const PilotSeries* series) { return !series->pilots.front().mesh; });
-  if (!meshed.empty()) add_mesh_shift(quietest(meshed), assessment.shifts);
+}
+
+void assess_gas(const std::vector<const PilotSeries*>& gas, const Wanted& wanted,
+                Assessment& assessment) {
+  const schema::Job& job = gas.front()->job;
+  for (const Quantity& quantity : quantities_of(gas, wanted)) {
+    const std::size_t before = assessment.statistics.size();
+    for (const PilotSeries* series : gas)
+      if (auto statistics = statistics_of(quantity, *series, wanted.targets))
+        assessment.statistics.push_back(*std::move(statistics));
+    if (assessment.statistics.size() == before) {
+      const bool reached = std::ranges::any_of(gas, [&](const PilotSeries* series) {
+        return quantity.measure != Measure::tau_c && series->pilots.front().tau_max >= quantity.to;
+      });
+      assessment.absent.push_back({.quantity = quantity, .job = job, .reached = reached});
+      continue;
+    }
+    std::vector<Shift> shifts;
+    add_shifts(quantity, gas, shifts);
+    for (const Cause cause :
+         {Cause::finite_size, Cause::equilibration, Cause::sampling, Cause::averaging, Cause::mesh})
+      if (is_moved(quantity, cause) &&
+          std::ranges::none_of(shifts, [&](const Shift& shift) { return shift.cause == cause; }))
+        assessment.unknown.push_back({.cause = cause, .quantity = quantity, .job = job});
+    std::ranges::move(shifts, std::back_inserter(assessment.shifts));
+  }
+}
+
+// A shift that is not seen may still be as large as its error.
+double finite_size_bound(const Assessment& assessment, const Statistics& statistics) {
+  const Shift* shift = finite_size_shift(assessment, statistics);
+  return shift == nullptr ? 0 : std::max(finite_size_error(assessment, statistics), shift->error);
+}
+
+// One size of the gas, for a target, of which finite size has taken `bias`.
+std::optional<Offer> offer(const Statistics& each, double target, double bias) {
+  if (bias >= target || !(each.deviation > 0)) return std::nullopt;
+  const auto realizations =
+      analysis::realizations_needed(each.deviation, std::sqrt(target * target - bias * bias));
+  return Offer{.job = each.job,
+               .realizations = realizations,
+               .cpu_seconds = static_cast<double>(realizations) * each.cpu_seconds,
+               .finite_size = bias,
+               .seen = each.realizations};
+}
+
+bool is_candidate(const Statistics& each, const std::string& gas, const Quantity& quantity) {
+  return each.quantity == quantity && gas_key(each.job) == gas && each.unfinished == 0;
 }
 
 }  // namespace
@@ -302,7 +421,8 @@ std::string gas_key(schema::Job job) {
   return schema::series_identity(job);
 }
 
-Assessment assess(const std::vector<PilotSeries>& all) {
+Assessment assess(const std::vector<PilotSeries>& all, const std::vector<schema::Target>& targets,
+                  const std::vector<Quantity>& asked) {
   std::vector<std::string> order;
   std::map<std::string, std::vector<const PilotSeries*>> gases;
   for (const PilotSeries& series : all) {
@@ -311,13 +431,7 @@ Assessment assess(const std::vector<PilotSeries>& all) {
     gas.push_back(&series);
   }
   Assessment assessment;
-  for (const std::string& key : order) assess_gas(gases[key], assessment);
-
-  for (const Cause cause :
-       {Cause::finite_size, Cause::equilibration, Cause::sampling, Cause::averaging, Cause::mesh})
-    if (std::ranges::none_of(assessment.shifts,
-                             [&](const Shift& shift) { return shift.cause == cause; }))
-      assessment.unknown.push_back(cause);
+  for (const std::string& key : order) assess_gas(gases[key], {targets, asked}, assessment);
   return assessment;
 }
 
@@ -340,20 +454,23 @@ std::optional<Offer> cheapest(const Assessment& assessment, const std::string& g
                               const Quantity& quantity, double target) {
   std::optional<Offer> best;
   for (const Statistics& each : assessment.statistics) {
-    if (each.quantity != quantity || gas_key(each.job) != gas || each.unfinished > 0) continue;
-    // A shift that is not seen may still be as large as its error.
-    double bias = finite_size_error(assessment, each);
-    if (const Shift* shift = finite_size_shift(assessment, each))
-      bias = std::max(bias, shift->error);
-    if (bias >= target || !(each.deviation > 0)) continue;
-    const auto realizations =
-        analysis::realizations_needed(each.deviation, std::sqrt(target * target - bias * bias));
-    const double cost = static_cast<double>(realizations) * each.cpu_seconds;
-    if (!best || cost < best->cpu_seconds)
-      best = Offer{
-          .job = each.job, .realizations = realizations, .cpu_seconds = cost, .finite_size = bias};
+    if (!is_candidate(each, gas, quantity)) continue;
+    const auto here = offer(each, target, finite_size_bound(assessment, each));
+    if (here && (!best || here->cpu_seconds < best->cpu_seconds)) best = here;
   }
   return best;
+}
+
+bool smaller_might_do(const Assessment& assessment, const std::string& gas,
+                      const Quantity& quantity, double target) {
+  const auto best = cheapest(assessment, gas, quantity, target);
+  return std::ranges::any_of(assessment.statistics, [&](const Statistics& each) {
+    if (!is_candidate(each, gas, quantity) || finite_size_bound(assessment, each) < target)
+      return false;
+    const auto here = offer(each, target, finite_size_error(assessment, each));
+    return here && (!best || (here->job.particles < best->job.particles &&
+                              here->cpu_seconds < best->cpu_seconds));
+  });
 }
 
 }  // namespace haff::campaign

@@ -17,9 +17,10 @@ struct Statistics {
   std::size_t realizations = 0;
   double mean = 0;
   double error = 0;  // standard error; of one realization from blocks of samples, NaN if none
-  double half_interval = 0;    // of 95 %, Student's; NaN for one realization
-  double deviation = 0;        // of one realization; of a single one by its blocks, or NaN
-  double cpu_seconds = 0;      // of one realization, as far as the quantity needs it
+  double half_interval = 0;       // of 95 %, Student's; NaN for one realization
+  std::size_t interval_runs = 0;  // that its scatter is of: all, or the pilots of a target
+  double deviation = 0;           // of one realization; of a single one by its blocks, or NaN
+  double cpu_seconds = 0;         // of one realization, as far as the quantity needs it
   std::size_t unfinished = 0;  // runs that ended before their tau_c: the mean is of the early ones
   std::optional<double> correlation_time = {};  // [tau], where the error comes from blocks
   std::vector<analysis::GroupScatter> scatter = {};
@@ -41,13 +42,33 @@ struct Shift {
   double error = 0;  // standard error of value
 };
 
-struct Assessment {
-  std::vector<Statistics> statistics;  // by gas, quantity, series
-  std::vector<Shift> shifts;
-  std::vector<Cause> unknown;  // causes that the store says nothing of
+// A cause that may move a quantity, and of which the store says nothing.
+struct Unknown {
+  Cause cause;
+  Quantity quantity;
+  schema::Job job;  // one of the gas
 };
 
-Assessment assess(const std::vector<PilotSeries>& all);
+// A quantity that no run of a gas has.
+struct Absence {
+  Quantity quantity;
+  schema::Job job;       // one of the gas
+  bool reached = false;  // a run is long enough: it was not measured
+};
+
+struct Assessment {
+  std::vector<Statistics> statistics;  // by gas, quantity, series
+  std::vector<Shift> shifts;           // by gas, quantity, cause
+  std::vector<Unknown> unknown;        // likewise
+  std::vector<Absence> absent;
+};
+
+// Of the usual quantities, of those that have a target, and of those asked for besides. The
+// interval of a series with a target is the one that its runs were added for, from the pilots'
+// scatter.
+Assessment assess(const std::vector<PilotSeries>& all,
+                  const std::vector<schema::Target>& targets = {},
+                  const std::vector<Quantity>& asked = {});
 
 // The same gas: equal in d, e, n and effects, whatever its size, preparation and sampling.
 std::string gas_key(schema::Job job);
@@ -66,10 +87,16 @@ struct Offer {
   std::size_t realizations = 0;
   double cpu_seconds = 0;
   double finite_size = 0;  // part of the error
+  std::size_t seen = 0;    // runs that its scatter is known from
 };
 // `gas` names one, by its key. Nothing if no size of it has an error (and a tau_c in each run, if
 // that is asked for), or each is too small.
 std::optional<Offer> cheapest(const Assessment& assessment, const std::string& gas,
                               const Quantity& quantity, double target);
+
+// Whether a smaller gas might do for less, and is not offered for the sole reason that its shift is
+// not known well enough: more runs of the largest gas may tell.
+bool smaller_might_do(const Assessment& assessment, const std::string& gas,
+                      const Quantity& quantity, double target);
 
 }  // namespace haff::campaign

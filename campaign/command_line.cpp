@@ -154,19 +154,25 @@ CLI::App* add_cost(CLI::App& app, CostRequest& options) {
         throw CLI::ValidationError("--target",
                                    "'" + text +
                                        "' is no target; expected a quantity and an error above 0, "
-                                       "e.g. a2=5e-4; quantities: a2, a3, gamma_ratio, "
-                                       "ln_temperature, tau_c, G_parallel");
-      options.targets.insert(*target);
+                                       "e.g. a2=5e-4, over a window of tau a2@3:8=5e-4, at one "
+                                       "tau gamma_ratio@20=1e-3; quantities: a2, a3, a4, "
+                                       "gamma_ratio, ln_temperature, tau_c, G_parallel");
+      options.targets.push_back(*target);
     }
   };
   command
       ->add_option_function<std::vector<std::string>>("--target", set_target,
-                                                      "The error to advise on, e.g. a2=5e-4")
-      ->type_name("QUANTITY=ERROR")
+                                                      "The error to advise on, e.g. a2=5e-4; of "
+                                                      "other tau than usual a2@3:8=5e-4")
+      ->type_name("QUANTITY[@TAU]=ERROR")
       ->delimiter(',');
   command->footer(examples(R"(  campaign cost
   campaign cost --target a2=5e-4,tau_c=0.5
+  campaign cost --target a2@3:8=5e-4,gamma_ratio@20=1e-3,ln_temperature@50=0.01
   campaign cost --out accuracy
+
+TAU is a window FROM:TO (a2, a3, a4, gamma_ratio), or one tau (gamma_ratio: 2 to either side,
+ln_temperature, G_parallel). Quantities that a grid has a "target" for are in the table too.
 
 Exit code 1 if no cooling run is done: it then says what to plan.)"));
   return command;

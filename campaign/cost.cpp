@@ -8,7 +8,9 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <system_error>
+#include <utility>
 
 #include "campaign/assessment.hpp"
 #include "campaign/cost_figure.hpp"
@@ -27,6 +29,9 @@ constexpr double ambition = 10;
 constexpr std::string_view pilot_grid = R"({ "e": 0.90, "n": 0.4, "tau_max": 20, "seeds": 16,
   "grids": [ { "N": [2000, 8000, 32000] }, { "N": 8000, "equilibrate": 100 } ] })";
 
+// Fewer leave the scatter, and with it the advice, open to a third.
+constexpr std::size_t fewest_runs = 5;
+
 std::string plan_for(Cause cause) {
   switch (cause) {
     case Cause::finite_size:
@@ -34,12 +39,27 @@ std::string plan_for(Cause cause) {
     case Cause::equilibration:
       return R"(plan the same grid with "equilibrate": [50, 100])";
     case Cause::sampling:
+      return "needs two realizations, of a gas that has it in each, sampled often";
     case Cause::averaging:
       return "needs two realizations";
     case Cause::mesh:
       return R"(needs two realizations with "correlations" in a box of more than 16 sigma)";
   }
   return "";
+}
+
+std::string gas_text(const schema::Job& job) {
+  return fmt::format("e {}, n {}{}{}", e_text(job), number_text(job.n), job.d == 2 ? ", disks" : "",
+                     job.effects == schema::Job{}.effects ? "" : ", " + job.effects);
+}
+
+// Names in the order in which they come, each once.
+void add_once(std::vector<std::string>& names, const std::string& name) {
+  if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 // An error to two digits.
@@ -61,16 +81,19 @@ void print_statistics(const Assessment& assessment, std::ostream& report) {
                    {"slope"},
                    {"", Align::left}});
   for (const Statistics& each : assessment.statistics) {
-    std::string rest;
+    std::vector<std::string> notes;
     if (each.correlation_time)
-      rest = fmt::format("blocks over tau, correlation time {:.2g}", *each.correlation_time);
+      notes.push_back(
+          fmt::format("blocks over tau, correlation time {:.2g}", *each.correlation_time));
     else if (each.realizations == 1)
-      rest = "one run: no error";
-    if (each.unfinished > 0) rest = fmt::format("too early: {} runs ended before", each.unfinished);
+      notes.emplace_back("one run: no error");
+    if (each.unfinished > 0)
+      notes.push_back(fmt::format("too early: {} runs ended before", each.unfinished));
+    if (each.interval_runs < each.realizations)
+      notes.push_back(fmt::format("interval from {} pilot runs", each.interval_runs));
     if (each.job.equilibrate != schema::Job{}.equilibrate)
-      rest += fmt::format("{}equilibrate {:g}", rest.empty() ? "" : ", ", each.job.equilibrate);
-    if (each.job.effects != schema::Job{}.effects)
-      rest += (rest.empty() ? "" : ", ") + each.job.effects;
+      notes.push_back(fmt::format("equilibrate {:g}", each.job.equilibrate));
+    if (each.job.effects != schema::Job{}.effects) notes.push_back(each.job.effects);
     table.add({describe(each.quantity), e_text(each.job), number_text(each.job.n),
                count_text(each.job.particles),
                count_text(static_cast<long long>(each.realizations)),
@@ -80,7 +103,7 @@ void print_statistics(const Assessment& assessment, std::ostream& report) {
                error_text(each.deviation * std::sqrt(each.cpu_seconds)),
                each.slope ? fmt::format("{:.2f} ± {:.2f}", each.slope->value, each.slope->error)
                           : no_value,
-               rest});
+               joined(notes)});
   }
   fmt::print(report,
              "Chance. An error falls with realizations, as CPU time to the power -1/2: slope is "
@@ -109,8 +132,47 @@ void print_shifts(const Assessment& assessment, std::ostream& report) {
                "What more realizations do not remove: the shift of the mean. Within two or three "
                "of its\nerrors it is not seen, and no larger than about that.\n\n{}\n",
                table.text());
-  for (const Cause cause : assessment.unknown)
-    fmt::print(report, "{}: not known from this store; {}\n", name(cause), plan_for(cause));
+}
+
+// Gases that lack the same are named together.
+void print_unknown(const Assessment& assessment, std::ostream& report) {
+  std::map<std::pair<Cause, std::string>, std::vector<std::string>> quantities;  // by cause and gas
+  for (const Unknown& each : assessment.unknown)
+    quantities[{each.cause, gas_text(each.job)}].push_back(describe(each.quantity));
+  std::map<std::pair<Cause, std::string>, std::vector<std::string>> gases;  // ... and quantities
+  for (const auto& [key, names] : quantities)
+    gases[{key.first, joined(names)}].push_back(key.second);
+  for (const auto& [key, names] : gases)
+    fmt::print(report, "{}: not known from this store of {} ({}); {}\n", name(key.first),
+               key.second, joined(names), plan_for(key.first));
+  if (!gases.empty()) fmt::print(report, "\n");
+}
+
+// Why no run has it, and what to plan so that one has.
+std::string reason_for(const Absence& absence) {
+  const Quantity& quantity = absence.quantity;
+  if (quantity.measure == Measure::tau_c) return R"(no run reaches it; plan a larger "tau_max")";
+  if (!absence.reached)
+    return fmt::format(R"(no run reaches it; plan "tau_max": {:g} or more)", quantity.to);
+  if (is_laguerre(quantity.measure))
+    return R"(no run measures it; plan with "laguerre" among the "observables")";
+  if (quantity.measure == Measure::correlation)
+    return fmt::format(
+        R"(no run measures it; plan with "correlations" among the "observables", "profiles_every": {:g})",
+        quantity.to);
+  return "no run measures it";
+}
+
+void print_absent(const Assessment& assessment, std::ostream& report) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<std::string>> gases;
+  for (const Absence& each : assessment.absent) {
+    const std::string line = describe(each.quantity) + ": " + reason_for(each);
+    add_once(order, line);
+    add_once(gases[line], gas_text(each.job));
+  }
+  for (const std::string& line : order) fmt::print(report, "{} ({})\n", line, joined(gases[line]));
+  if (!order.empty()) fmt::print(report, "\n");
 }
 
 // The engine computes in double alone: what the runs themselves have watched of its rounding. That
@@ -136,10 +198,45 @@ struct Advice {
   schema::Job job;
   double target = 0;
   std::optional<Offer> offer = {};
+  double memory_bytes = 0;  // of the offer
+  std::vector<std::string> notes = {};
 };
 
+bool is_meant(const CostTarget& target, const Quantity& quantity) {
+  return target.quantity ? *target.quantity == quantity : target.measure == quantity.measure;
+}
+
+// The least error that a size of the gas has today.
+double least_error(const Assessment& assessment, const std::string& gas, const Quantity& quantity) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Statistics& each : assessment.statistics)
+    if (each.quantity == quantity && gas_key(each.job) == gas && each.error > 0)
+      least = std::min(least, each.error);
+  return least;
+}
+
+Advice advise(const Assessment& assessment, Advice wanted, Forecast& forecast) {
+  wanted.offer = cheapest(assessment, wanted.gas, wanted.quantity, wanted.target);
+  if (wanted.offer) {
+    wanted.memory_bytes = forecast.memory_bytes(wanted.offer->job);
+    if (wanted.offer->seen < fewest_runs)
+      wanted.notes.push_back(fmt::format("rests on the scatter of {} run{}", wanted.offer->seen,
+                                         wanted.offer->seen == 1 ? "" : "s"));
+  }
+  const auto is_complete = [&](const Statistics& each) {
+    return each.quantity == wanted.quantity && gas_key(each.job) == wanted.gas &&
+           each.unfinished == 0;
+  };
+  if (std::ranges::none_of(assessment.statistics, is_complete))
+    wanted.notes.emplace_back(R"(of no size each run has it: plan a larger "tau_max")");
+  if (smaller_might_do(assessment, wanted.gas, wanted.quantity, wanted.target))
+    wanted.notes.emplace_back("more runs of the largest gas would allow a smaller one");
+  return wanted;
+}
+
 // Of each gas and quantity one a target, in the order of the statistics.
-std::vector<Advice> advice(const Assessment& assessment, const CostRequest& request) {
+std::vector<Advice> advice(const Assessment& assessment, const CostRequest& request,
+                           Forecast& forecast) {
   std::vector<Advice> all;
   for (const Statistics& each : assessment.statistics) {
     const std::string gas = gas_key(each.job);
@@ -149,23 +246,33 @@ std::vector<Advice> advice(const Assessment& assessment, const CostRequest& requ
     if (known || !(each.error > 0)) continue;
     std::vector<double> targets;
     if (request.targets.empty()) {
-      double today = each.error;
-      for (const Statistics& other : assessment.statistics)
-        if (other.quantity == each.quantity && gas_key(other.job) == gas && other.error > 0)
-          today = std::min(today, other.error);
+      const double today = least_error(assessment, gas, each.quantity);
       targets = {today, today / ambition};
-    } else if (const auto asked = request.targets.find(name(each.quantity.measure));
-               asked != request.targets.end()) {
-      targets = {asked->second};
     }
+    for (const CostTarget& asked : request.targets)
+      if (is_meant(asked, each.quantity)) targets.push_back(asked.error);
     for (const double target : targets)
-      all.push_back(
-          {each.quantity, gas, each.job, target, cheapest(assessment, gas, each.quantity, target)});
+      all.push_back(advise(assessment, {each.quantity, gas, each.job, target}, forecast));
   }
   return all;
 }
 
-void print_advice(const std::vector<Advice>& all, Forecast& forecast, std::ostream& report) {
+// What is asked and neither advised on nor absent from the runs.
+void print_unanswered(const Assessment& assessment, const CostRequest& request,
+                      const std::vector<Advice>& advised, std::ostream& report) {
+  for (const CostTarget& asked : request.targets) {
+    const auto meant = [&](const auto& each) { return is_meant(asked, each.quantity); };
+    if (std::ranges::any_of(advised, meant) || std::ranges::any_of(assessment.absent, meant))
+      continue;
+    fmt::print(report, "{}: {}\n\n",
+               asked.quantity ? describe(*asked.quantity) : name(asked.measure),
+               std::ranges::any_of(assessment.statistics, meant)
+                   ? "its error is not known; it takes two realizations"
+                   : "not usual of these gases; say at which tau, as in ln_temperature@50=0.01");
+  }
+}
+
+void print_advice(const std::vector<Advice>& all, std::ostream& report) {
   TextTable table({{"quantity", Align::left},
                    {"e"},
                    {"n"},
@@ -173,17 +280,19 @@ void print_advice(const std::vector<Advice>& all, Forecast& forecast, std::ostre
                    {"N"},
                    {"runs"},
                    {"CPU time"},
-                   {"memory"}});
+                   {"memory"},
+                   {"", Align::left}});
   for (const Advice& each : all) {
     std::vector<std::string> cells{describe(each.quantity), e_text(each.job),
                                    number_text(each.job.n), error_text(each.target)};
     if (each.offer)
-      cells.insert(cells.end(), {count_text(each.offer->job.particles),
-                                 count_text(static_cast<long long>(each.offer->realizations)),
-                                 duration_text(each.offer->cpu_seconds),
-                                 bytes_text(forecast.memory_bytes(each.offer->job))});
+      cells.insert(cells.end(),
+                   {count_text(each.offer->job.particles),
+                    count_text(static_cast<long long>(each.offer->realizations)),
+                    duration_text(each.offer->cpu_seconds), bytes_text(each.memory_bytes)});
     else
       cells.insert(cells.end(), {"larger", no_value, no_value, no_value});
+    cells.push_back(joined(each.notes));
     table.add(std::move(cells));
   }
   if (!table.empty())
@@ -201,7 +310,7 @@ void write_csv(const Assessment& assessment, const std::vector<Advice>& advised,
                const std::filesystem::path& file) {
   std::ofstream csv(file);
   csv << "row,quantity,tau_from,tau_to,r,e,n,particles,equilibrate,precision,cause,realizations,"
-         "cpu_seconds,value,error,interval,slope,slope_error,correlation_time\n";
+         "cpu_seconds,value,error,interval,slope,slope_error,correlation_time,memory_bytes\n";
   const auto begin = [&](const char* row, const Quantity& q, const schema::Job& job,
                          const std::string& cause) {
     csv << fmt::format("{},{},{},{},{},{},{},{},{},{},{}", row, name(q.measure), field(q.from),
@@ -212,31 +321,67 @@ void write_csv(const Assessment& assessment, const std::vector<Advice>& advised,
   for (const Statistics& each : assessment.statistics) {
     begin("mean", each.quantity, each.job, "chance");
     const auto runs = static_cast<double>(each.realizations);
-    csv << fmt::format(",{},{},{},{},{},{},{},{}\n", each.realizations,
+    csv << fmt::format(",{},{},{},{},{},{},{},{},\n", each.realizations,
                        field(runs * each.cpu_seconds), field(each.mean), field(each.error),
                        field(each.half_interval), each.slope ? field(each.slope->value) : "",
                        each.slope ? field(each.slope->error) : "",
                        each.correlation_time ? field(*each.correlation_time) : "");
     for (const analysis::GroupScatter& group : each.scatter) {
       begin("scatter", each.quantity, each.job, "chance");
-      csv << fmt::format(",{},{},{},{},,,,\n", group.size,
+      csv << fmt::format(",{},{},{},{},,,,,\n", group.size,
                          field(static_cast<double>(group.size) * each.cpu_seconds),
                          field(group.scatter), field(group.error));
     }
   }
   for (const Shift& each : assessment.shifts) {
     begin("shift", each.quantity, each.job, "\"" + each.change + "\"");
-    csv << fmt::format(",,,{},{},,,,\n", field(each.value), field(each.error));
+    csv << fmt::format(",,,{},{},,,,,\n", field(each.value), field(each.error));
   }
   for (const Advice& each : advised) {
     if (!each.offer) continue;
     begin("advice", each.quantity, each.offer->job, "finite size");
-    csv << fmt::format(",{},{},{},{},,,,\n", each.offer->realizations,
+    csv << fmt::format(",{},{},{},{},,,,,{}\n", each.offer->realizations,
                        field(each.offer->cpu_seconds), field(each.offer->finite_size),
-                       field(each.target));
+                       field(each.target), field(each.memory_bytes));
   }
   csv.close();
   if (!csv) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+}
+
+std::optional<double> number_from(const std::string& text) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+// In a window, "3:8", or at one tau, "20".
+std::optional<Quantity> quantity_in(Measure measure, const std::string& window) {
+  const auto colon = window.find(':');
+  const auto from = number_from(window.substr(0, colon));
+  if (!from || *from < 0 || measure == Measure::tau_c) return std::nullopt;
+  if (colon == std::string::npos) {
+    const Quantity quantity = usual_quantity(measure, *from);
+    if (is_laguerre(measure) || quantity.from < 0) return std::nullopt;
+    return quantity;
+  }
+  const auto to = number_from(window.substr(colon + 1));
+  if (!to || *from >= *to || !(is_laguerre(measure) || measure == Measure::gamma_ratio))
+    return std::nullopt;
+  return Quantity{.measure = measure, .from = *from, .to = *to};
+}
+
+// Quantities that are not among the usual ones.
+std::vector<Quantity> asked_by(const CostRequest& request) {
+  std::vector<Quantity> all;
+  for (const CostTarget& target : request.targets) {
+    if (target.quantity)
+      all.push_back(*target.quantity);
+    else if (is_laguerre(target.measure) || target.measure == Measure::tau_c)
+      all.push_back(usual_quantity(target.measure));
+  }
+  return all;
 }
 
 void make_folder(const std::filesystem::path& folder) {
@@ -249,29 +394,38 @@ void make_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::optional<std::pair<std::string, double>> target_from_text(const std::string& text) {
+std::optional<CostTarget> target_from_text(const std::string& text) {
   const auto equals = text.find('=');
-  if (equals == std::string::npos || !measure_named(text.substr(0, equals))) return std::nullopt;
-  double error = 0;
-  const char* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data() + equals + 1, end, error);
-  if (read.ec != std::errc() || read.ptr != end || !(error > 0)) return std::nullopt;
-  return std::pair(text.substr(0, equals), error);
+  if (equals == std::string::npos) return std::nullopt;
+  const auto at = std::min(text.find('@'), equals);
+  const auto measure = measure_named(text.substr(0, at));
+  const auto error = number_from(text.substr(equals + 1));
+  if (!measure || !error || !(*error > 0)) return std::nullopt;
+  CostTarget target{.measure = *measure, .error = *error};
+  if (at < equals) {
+    target.quantity = quantity_in(*measure, text.substr(at + 1, equals - at - 1));
+    if (!target.quantity) return std::nullopt;
+  }
+  return target;
 }
 
 int cost(const schema::Reader& store, const CostRequest& request, std::ostream& report) {
-  const Assessment assessment = assess(read_pilots(store));
-  if (assessment.statistics.empty()) {
+  const auto pilots = read_pilots(store);
+  if (pilots.empty()) {
     fmt::print(report, "No cooling run is done. For what accuracy costs plan, for example\n{}\n",
                pilot_grid);
     return 1;
   }
+  const Assessment assessment = assess(pilots, store.targets(), asked_by(request));
   Forecast forecast(store.jobs());
-  const auto advised = advice(assessment, request);
+  const auto advised = advice(assessment, request, forecast);
   print_statistics(assessment, report);
   print_shifts(assessment, report);
+  print_unknown(assessment, report);
   print_precision(store, report);
-  print_advice(advised, forecast, report);
+  print_absent(assessment, report);
+  print_unanswered(assessment, request, advised, report);
+  print_advice(advised, report);
 
   make_folder(request.out);
   write_csv(assessment, advised, request.out / "cost.csv");

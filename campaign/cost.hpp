@@ -7,23 +7,34 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <ostream>
 #include <string>
-#include <utility>
+#include <vector>
 
+#include "campaign/quantity.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {
 
-struct CostRequest {
-  std::filesystem::path out = "cost";          // made if it is not there
-  std::map<std::string, double> targets = {};  // by the name of a quantity; else a tenth of today's
+// An error that is wanted: of one quantity, or of all that the table has of a measure.
+struct CostTarget {
+  Measure measure = Measure::a2;
+  std::optional<Quantity> quantity = {};
+  double error = 0;
+
+  bool operator==(const CostTarget&) const = default;
 };
 
-// "a2=5e-4"; nothing if it names no quantity of the table, or no error above 0.
-std::optional<std::pair<std::string, double>> target_from_text(const std::string& text);
+struct CostRequest {
+  std::filesystem::path out = "cost";    // made if it is not there
+  std::vector<CostTarget> targets = {};  // else today's error, and a tenth of it
+};
+
+// "a2=5e-4", or with a window of tau as a grid's target has one, "a2@3:8=5e-4"; at one tau
+// "gamma_ratio@20=1e-3" (2 to either side), "ln_temperature@50=0.01", "G_parallel@50=1e-5". Nothing
+// if it names no quantity, a window that the quantity cannot have, or no error above 0.
+std::optional<CostTarget> target_from_text(const std::string& text);
 
 // Returns an exit code: 0, or 1 if no cooling run is done yet (it says what to plan) or gnuplot is
 // not installed (table and CSV are there). Throws std::runtime_error if a file cannot be written,

@@ -16,6 +16,15 @@ namespace {
 // tau of a sample and ends of a window are both rounded. [tau]
 constexpr double rounding = 1e-9;
 
+// Where a_2 of 0.8 <= e < 1 is near its plateau, before velocity correlations draw it back. [tau]
+constexpr double plateau_from = 5, plateau_to = 15;
+
+// gamma is averaged over so much to either side. [tau]
+constexpr double decay_reach = 2;
+
+// G_parallel: a distance beyond the cells of its mesh and within a small box. [sigma]
+constexpr double correlation_r = 5;
+
 // Blocks of so many correlation times, as seen with these very blocks, leave an error at most a
 // tenth too small.
 constexpr double long_enough = 8;
@@ -41,10 +50,6 @@ bool reaches(const Samples& samples, double tau) {
 
 std::optional<double> laguerre(Measure measure, const schema::Sample& sample) {
   return measure == Measure::a2 ? sample.a2 : measure == Measure::a3 ? sample.a3 : sample.a4;
-}
-
-bool is_laguerre(Measure measure) {
-  return measure == Measure::a2 || measure == Measure::a3 || measure == Measure::a4;
 }
 
 std::vector<double> laguerre_series(const Quantity& quantity, const Samples& samples) {
@@ -107,6 +112,30 @@ std::optional<double> correlation(const Quantity& quantity, const Pilot& pilot) 
 }
 
 }  // namespace
+
+Quantity usual_quantity(Measure measure, double tau) {
+  if (is_laguerre(measure)) return {.measure = measure, .from = plateau_from, .to = plateau_to};
+  switch (measure) {
+    case Measure::tau_c:
+      return {.measure = measure};
+    case Measure::gamma_ratio:
+      return {.measure = measure, .from = tau - decay_reach, .to = tau + decay_reach};
+    case Measure::correlation:
+      return {.measure = measure, .from = tau, .to = tau, .r = correlation_r};
+    default:
+      return {.measure = measure, .from = tau, .to = tau};
+  }
+}
+
+Quantity quantity_of(const schema::Target& target) {
+  return {.measure = measure_named(target.quantity).value(),
+          .from = target.tau_from,
+          .to = target.tau_to};
+}
+
+bool is_laguerre(Measure measure) {
+  return measure == Measure::a2 || measure == Measure::a3 || measure == Measure::a4;
+}
 
 std::string name(Measure measure) {
   switch (measure) {
@@ -198,6 +227,19 @@ std::optional<OneRunError> error_within(const Quantity& quantity, const schema::
   return OneRunError{
       .standard_error = std::sqrt(2 * variance / times * (1 - (1 - std::exp(-times)) / times)),
       .correlation_time = correlation_time};
+}
+
+std::optional<double> half_interval(const schema::Target& target, const PilotSeries& series) {
+  std::size_t realizations = 0;
+  std::vector<double> of_pilots;
+  for (const Pilot& pilot : series.pilots) {
+    const auto value = value_of(quantity_of(target), series.job, pilot);
+    if (!value) continue;
+    ++realizations;
+    if (std::ranges::count(target.pilots, pilot.seed) > 0) of_pilots.push_back(*value);
+  }
+  if (of_pilots.size() < 2 || of_pilots.size() < target.pilots.size()) return std::nullopt;
+  return analysis::half_interval(analysis::estimate(of_pilots), realizations);
 }
 
 double cpu_seconds(const Quantity& quantity, const Pilot& pilot) {

@@ -20,6 +20,12 @@ struct Quantity {
   bool operator==(const Quantity&) const = default;
 };
 
+// Over a usual window: of the plateau of a2, a3 and a4, which needs no tau; of 2 to either side of
+// tau for gamma_ratio; at tau for the others, G_parallel at 5 sigma. tau_c needs none.
+Quantity usual_quantity(Measure measure, double tau = 0);
+Quantity quantity_of(const schema::Target& target);
+bool is_laguerre(Measure measure);  // a2, a3, a4
+
 std::string name(Measure measure);  // a word for tables: "ln_temperature"
 std::optional<Measure> measure_named(const std::string& name);
 std::string describe(const Quantity& quantity);  // "a2, tau 5 to 15"
@@ -47,6 +53,11 @@ struct OneRunError {
 };
 std::optional<OneRunError> error_within(const Quantity& quantity, const schema::Job& job,
                                         const Pilot& pilot);
+
+// Half the 95 % interval of the mean of a series that was run until a target was met: the scatter
+// of the target's pilot runs alone decides (analysis/accuracy.hpp says why). Nothing until each of
+// them has a value.
+std::optional<double> half_interval(const schema::Target& target, const PilotSeries& series);
 
 // CPU time of one realization run as far as the quantity needs, its equilibration included and
 // cooling in proportion to tau. [s]

@@ -55,12 +55,6 @@ std::map<std::string, Runs> runs_by_series(const schema::Reader& store) {
   return all;
 }
 
-Quantity quantity_of(const schema::Target& target) {
-  return {.measure = measure_named(target.quantity).value(),
-          .from = target.tau_from,
-          .to = target.tau_to};
-}
-
 double spent_cpu_seconds(const PilotSeries& series) {
   double sum = 0;
   for (const Pilot& pilot : series.pilots)
@@ -74,7 +68,7 @@ double mean_cpu_seconds(const PilotSeries& series) {
 
 // What the finished realizations say of a target.
 struct Values {
-  std::vector<double> all, of_pilots;
+  std::vector<double> all;
   std::size_t without = 0;  // realizations that have no such value
 };
 
@@ -87,7 +81,6 @@ Values values_of(const schema::Target& target, const PilotSeries& series) {
       continue;
     }
     values.all.push_back(*value);
-    if (std::ranges::count(target.pilots, pilot.seed) > 0) values.of_pilots.push_back(*value);
   }
   return values;
 }
@@ -112,17 +105,13 @@ void judge(TargetProgress& progress, const Runs& runs, const PilotSeries& series
     progress.cpu_seconds =
         mean_cpu_seconds(series) * static_cast<double>(progress.expected - runs.rows.size());
   }
-  const bool pilots_done = values.of_pilots.size() == target.pilots.size();
-  if (pilots_done) {
-    const bool lies_ahead =
-        values.all.size() == target.pilots.size() || progress.expected > values.all.size();
-    if (lies_ahead)
-      progress.forecast = {progress.expected,
-                           mean_cpu_seconds(series) * static_cast<double>(progress.expected)};
-    progress.half_interval = analysis::student_t(target.pilots.size() - 1) *
-                             analysis::standard_deviation(analysis::estimate(values.of_pilots)) /
-                             std::sqrt(static_cast<double>(values.all.size()));
-  }
+  progress.half_interval = half_interval(target, series);
+  const bool pilots_done = progress.half_interval.has_value();
+  const bool lies_ahead =
+      values.all.size() == target.pilots.size() || progress.expected > values.all.size();
+  if (pilots_done && lies_ahead)
+    progress.forecast = {progress.expected,
+                         mean_cpu_seconds(series) * static_cast<double>(progress.expected)};
   if (runs.open > 0) return;  // waiting
 
   if (!pilots_done || values.without > 0) {

@@ -98,11 +98,72 @@ TEST_CASE("cost: an accuracy that a small gas cannot reach takes the larger one"
   CHECK(fine->cpu_seconds == Approx(0.5 * static_cast<double>(fine->realizations)));
 }
 
-TEST_CASE("cost: what the store says nothing of is named") {
-  const auto unknown = assess(two_sizes()).unknown;
-  CHECK(std::ranges::count(unknown, Cause::finite_size) == 0);
-  CHECK(std::ranges::count(unknown, Cause::equilibration) == 1);
-  CHECK(std::ranges::count(unknown, Cause::mesh) == 1);
+TEST_CASE("cost: what the store says nothing of is named, quantity by quantity") {
+  const Assessment assessment = assess(two_sizes());
+  const auto unknown = [&](Cause cause) {
+    return std::ranges::count_if(assessment.unknown, [&](const Unknown& each) {
+      return each.quantity == a2 && each.cause == cause;
+    });
+  };
+  CHECK(unknown(Cause::finite_size) == 0);
+  CHECK(unknown(Cause::equilibration) == 1);
+  CHECK(unknown(Cause::sampling) == 0);
+  CHECK(unknown(Cause::mesh) == 0);  // it moves correlations alone
+}
+
+TEST_CASE("cost: quantities that no run has are named, with the reason") {
+  const Assessment assessment = assess(two_sizes());
+  const auto absence = [&](const Quantity& quantity) {
+    return std::ranges::find_if(assessment.absent,
+                                [&](const Absence& each) { return each.quantity == quantity; });
+  };
+  CHECK(absence(a2) == assessment.absent.end());
+  const auto late = absence(usual_quantity(Measure::gamma_ratio, 50));
+  REQUIRE(late != assessment.absent.end());
+  CHECK_FALSE(late->reached);
+  const auto unmeasured = absence(usual_quantity(Measure::gamma_ratio, 10));
+  REQUIRE(unmeasured != assessment.absent.end());
+  CHECK(unmeasured->reached);
+}
+
+TEST_CASE("cost: of as many particles in all the larger gas shows what sampling does") {
+  const Assessment assessment =
+      assess({gas(1000, 64, -0.03, 0.02, 0.1), gas(4000, 16, -0.04, 0.01, 0.5)});
+  bool any = false;
+  for (const Shift& shift : assessment.shifts) {
+    if (shift.cause != Cause::sampling && shift.cause != Cause::averaging) continue;
+    any = true;
+    CHECK(shift.job.particles == 4000);
+  }
+  CHECK(any);
+}
+
+TEST_CASE("cost: a gas without the quantity does not stand for it") {
+  std::vector<PilotSeries> series{gas(1000, 8, -0.03, 0.02, 0.1), gas(4000, 8, -0.04, 0.01, 0.5)};
+  for (Pilot& pilot : series[1].pilots)
+    for (schema::Sample& sample : pilot.samples) sample.a2.reset();
+  const Assessment assessment = assess(series);
+  const auto shift = std::ranges::find_if(assessment.shifts, [](const Shift& each) {
+    return each.cause == Cause::sampling && each.quantity == a2;
+  });
+  REQUIRE(shift != assessment.shifts.end());
+  CHECK(shift->job.particles == 1000);
+}
+
+TEST_CASE("cost: fewer samples that are the same ones are said to be") {
+  auto series = two_sizes();
+  for (PilotSeries& each : series)
+    for (Pilot& pilot : each.pilots)
+      for (schema::Sample& sample : pilot.samples)
+        sample.temperature = std::exp(-0.06 * sample.tau);
+  const Quantity at_10 = usual_quantity(Measure::ln_temperature, 10);
+  const Assessment assessment = assess(series, {}, {at_10});
+  const auto shift = std::ranges::find_if(assessment.shifts, [&](const Shift& each) {
+    return each.cause == Cause::sampling && each.quantity == at_10;
+  });
+  REQUIRE(shift != assessment.shifts.end());
+  CHECK(shift->value == 0);
+  CHECK(shift->change == "a sample every 2, not 1: the same samples");
 }
 
 namespace {
@@ -170,11 +231,13 @@ TEST_CASE("cost: a run too short to show its correlation time has no error") {
 
 TEST_CASE("cost: what wider cells do to a correlation is the difference of the same states") {
   auto series = two_sizes();
-  for (PilotSeries& each : series)
+  for (PilotSeries& each : series)  // the small gas ends where the correlation is asked for
     for (std::size_t k = 0; k < each.pilots.size(); ++k) {
       const double value = static_cast<double>(k % 7);
-      each.pilots[k].mesh = {.usual = {"G_parallel", 15, {4, 6}, {value, value}},
-                             .wide = {"G_parallel", 15, {4, 6}, {value - 0.5, value - 0.5}}};
+      const double end = each.job.particles == 1000 ? 15 : 40;
+      each.pilots[k].correlations = {{"G_parallel", 15, {4, 6}, {value, value}}};
+      each.pilots[k].mesh = {.usual = {"G_parallel", end, {4, 6}, {value, value}},
+                             .wide = {"G_parallel", end, {4, 6}, {value - 0.5, value - 0.5}}};
     }
   const Assessment assessment = assess(series);
   const auto shift = std::ranges::find_if(
@@ -182,6 +245,50 @@ TEST_CASE("cost: what wider cells do to a correlation is the difference of the s
   REQUIRE(shift != assessment.shifts.end());
   CHECK(shift->value == Approx(-0.5));
   CHECK(shift->error < 1e-12);
+  CHECK(shift->job.particles == 1000);
+  CHECK(shift->quantity.to == 15);
+  CHECK(shift->change.find("at tau 15") != std::string::npos);
+}
+
+TEST_CASE("cost: a target's window is among the quantities, its interval rests on the pilots") {
+  const Quantity early{.measure = Measure::a2, .from = 3, .to = 8};
+  const auto series = two_sizes();
+  const schema::Target target{.series = schema::series_identity(series[0].job),
+                              .quantity = "a2",
+                              .tau_from = 3,
+                              .tau_to = 8,
+                              .se = 0.002,
+                              .pilots = {1, 2, 3, 4, 5}};
+  const Assessment assessment = assess(series, {target});
+  for (const Statistics& each : assessment.statistics) {
+    if (each.quantity != early) continue;
+    const bool has_target = each.job.particles == 1000;
+    CHECK(each.realizations == 256);
+    CHECK(each.interval_runs == (has_target ? 5 : 256));
+    const double usual = 1.97 * each.error;
+    CHECK(each.half_interval ==
+          Approx(has_target ? half_interval(target, series[0]).value() : usual).epsilon(0.01));
+  }
+  CHECK(std::ranges::count_if(assessment.statistics,
+                              [&](const Statistics& each) { return each.quantity == early; }) == 2);
+}
+
+TEST_CASE("cost: where the largest gas is known too badly more of it is advised") {
+  // Both sizes are equal within their errors; the small one is cheaper.
+  const std::vector<PilotSeries> series{gas(1000, 256, -0.04, 0.02, 0.1),
+                                        gas(4000, 4, -0.04, 0.01, 10)};
+  const Assessment assessment = assess(series);
+  const std::string key = gas_key(series[0].job);
+  const double uncertain = finite_size_shift(assessment, of_size(assessment, 1000))->error;
+  const auto fine = cheapest(assessment, key, a2, uncertain / 2);
+  REQUIRE(fine);
+  CHECK(fine->job.particles == 4000);
+  CHECK(fine->seen == 4);
+  CHECK(smaller_might_do(assessment, key, a2, uncertain / 2) ==
+        (finite_size_error(assessment, of_size(assessment, 1000)) < uncertain / 2));
+  CHECK_FALSE(smaller_might_do(assessment, key, a2, 10 * uncertain));
+  // Of two_sizes() the small one is seen to be too small.
+  CHECK_FALSE(smaller_might_do(assess(two_sizes()), key, a2, 1e-4));
 }
 
 TEST_CASE("cost: where runs end before their tau_c the mean of the others is no measure") {
@@ -211,9 +318,11 @@ TEST_CASE("cost: writes a table, a CSV of whole rows, and pictures") {
   CHECK(report.str().find("a2, tau 5 to 15") != std::string::npos);
   CHECK(report.str().find("finite size") != std::string::npos);
   CHECK(report.str().find("The cheapest way to an error") != std::string::npos);
+  CHECK(report.str().find("rests on the scatter of 4 runs") != std::string::npos);
   std::istringstream csv(text_of(folder.path() / "cost" / "cost.csv"));
   std::string head, line;
   std::getline(csv, head);
+  CHECK(head.ends_with(",memory_bytes"));
   while (std::getline(csv, line)) {
     const auto quote = line.find('"');
     if (quote != std::string::npos)
@@ -230,8 +339,25 @@ TEST_CASE("cost: advice for the error asked for") {
   schema::Store store = schema::Store::create(":memory:");
   add_finished(store, 0.9, 0.4, 1000, 8, 20);
   std::ostringstream report;
-  cost(store, {.out = folder.path(), .targets = {{"a2", 2e-4}}}, report);
+  cost(store, {.out = folder.path(), .targets = {{.measure = Measure::a2, .error = 2e-4}}}, report);
   CHECK(report.str().find("2.0e-04") != std::string::npos);
+}
+
+TEST_CASE("cost: an error of what no run reaches gets an answer") {
+  const TemporaryFolder folder;
+  schema::Store store = schema::Store::create(":memory:");
+  add_finished(store, 0.9, 0.4, 1000, 8, 20);
+  std::ostringstream report;
+  cost(
+      store,
+      {.out = folder.path(),
+       .targets = {target_from_text("tau_c=0.5").value(), target_from_text("a2@30:40=1e-3").value(),
+                   target_from_text("gamma_ratio@15=1e-3").value()}},
+      report);
+  CHECK(report.str().find("tau_c: no run reaches it") != std::string::npos);
+  CHECK(report.str().find("a2, tau 30 to 40: no run reaches it; plan \"tau_max\": 40") !=
+        std::string::npos);
+  CHECK(report.str().find("gamma/gamma0, tau 13 to 17") != std::string::npos);
 }
 
 TEST_CASE("cost: an empty store says what to plan") {
@@ -244,8 +370,18 @@ TEST_CASE("cost: an empty store says what to plan") {
 }
 
 TEST_CASE("cost: targets are a quantity and an error") {
-  CHECK(target_from_text("a2=5e-4") == std::pair(std::string("a2"), 5e-4));
-  for (const char* text : {"a2", "a2=", "a2=0", "a2=-1", "a2=x", "b=1", "a2=1x"}) {
+  CHECK(target_from_text("a2=5e-4") == CostTarget{.measure = Measure::a2, .error = 5e-4});
+  const auto quantity = [](const char* text) { return target_from_text(text).value().quantity; };
+  CHECK(quantity("a2@3:8=5e-4") == Quantity{.measure = Measure::a2, .from = 3, .to = 8});
+  CHECK(quantity("gamma_ratio@20=1e-3") ==
+        Quantity{.measure = Measure::gamma_ratio, .from = 18, .to = 22});
+  CHECK(quantity("gamma_ratio@15:25=1e-3") ==
+        Quantity{.measure = Measure::gamma_ratio, .from = 15, .to = 25});
+  CHECK(quantity("G_parallel@30=1e-5") ==
+        Quantity{.measure = Measure::correlation, .from = 30, .to = 30, .r = 5});
+  for (const char* text :
+       {"a2", "a2=", "a2=0", "a2=-1", "a2=x", "b=1", "a2=1x", "a2@=1", "a2@5=1", "a2@8:3=1",
+        "a2@-1:3=1", "a2@3:=1", "gamma_ratio@1=1", "tau_c@5=1", "ln_temperature@3:8=1", "=@"}) {
     CAPTURE(text);
     CHECK_FALSE(target_from_text(text));
   }

@@ -14,7 +14,8 @@ bool contains(const std::string& text, const char* part) {
 
 TEST_CASE("command line: every command has help with examples") {
   const Folder folder;
-  for (const char* command : {"plan", "run", "status", "query", "figures", "verify", "retry"}) {
+  for (const char* command :
+       {"plan", "run", "status", "query", "figures", "cost", "verify", "retry"}) {
     CAPTURE(command);
     const Outcome outcome = campaign(folder, {command, "--help"});
     CHECK(outcome.exit_code == 0);
