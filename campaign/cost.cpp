@@ -18,6 +18,7 @@
 #include "campaign/forecast.hpp"
 #include "campaign/gnuplot.hpp"
 #include "campaign/job_text.hpp"
+#include "campaign/precision.hpp"
 #include "campaign/text_table.hpp"
 
 namespace haff::campaign {
@@ -175,21 +176,45 @@ void print_absent(const Assessment& assessment, std::ostream& report) {
   if (!order.empty()) fmt::print(report, "\n");
 }
 
-// The engine computes in double alone: what the runs themselves have watched of its rounding. That
-// 2^29 times as much, in single precision, shifts nothing has been measured (README, What accuracy
-// costs).
-void print_precision(const schema::Reader& store, std::ostream& report) {
+// What the runs themselves have watched of their rounding, and what is known of each quantity.
+void print_precision(const Assessment& assessment, const schema::Reader& store,
+                     std::ostream& report) {
+  fmt::print(report, "Arithmetic: double.");
   auto rows = store.query("SELECT max(energy_mismatch), max(largest_overlap) FROM invariants");
   const auto row = rows.next().value();
   const auto* energy = std::get_if<double>(row.data());
   const auto* overlap = std::get_if<double>(&row[1]);
-  if (energy == nullptr || overlap == nullptr) return;
-  fmt::print(
-      report,
-      "Arithmetic: double. Of all runs energy is balanced to {:.1e}, overlaps are at most "
-      "{:.1e} sigma.\nA shift by rounding is not seen even in single precision, which rounds "
-      "2^29 times as\ncoarsely (README, What accuracy costs).\n\n",
-      *energy, *overlap);
+  if (energy != nullptr && overlap != nullptr)
+    fmt::print(report,
+               " In all runs energy is balanced to {:.1e}, overlaps are at most {:.1e} sigma.",
+               *energy, *overlap);
+
+  TextTable table({{"quantity", Align::left},
+                   {"measured", Align::left},
+                   {"N"},
+                   {"runs"},
+                   {"single less double"},
+                   {"error"}});
+  std::vector<std::string> done;
+  for (const Statistics& each : assessment.statistics) {
+    const std::string quantity = describe(each.quantity);
+    if (std::ranges::find(done, quantity) != done.end()) continue;
+    done.push_back(quantity);
+    const auto shifts = single_less_double(each.quantity);
+    if (shifts.empty())
+      table.add({quantity, "not measured", no_value, no_value, no_value, no_value});
+    for (const PrecisionShift& shift : shifts)
+      table.add({quantity, shift.quantity == each.quantity ? "itself" : describe(shift.quantity),
+                 count_text(shift.particles),
+                 count_text(static_cast<long long>(shift.realizations)),
+                 fmt::format("{:+.1e}", shift.value), error_text(shift.error)});
+  }
+  fmt::print(report,
+             "\nWhat is known of a shift by rounding is what single precision does, which rounds "
+             "2^29 times as\ncoarsely, measured at e = {:g}, n = {:g} (README, What accuracy "
+             "costs); in double it has not been\nmeasured, and if it is in proportion to rounding "
+             "it is 2^29 times less:\n\n{}\n",
+             precision_e, precision_n, table.text());
 }
 
 struct Advice {
@@ -337,6 +362,18 @@ void write_csv(const Assessment& assessment, const std::vector<Advice>& advised,
     begin("shift", each.quantity, each.job, "\"" + each.change + "\"");
     csv << fmt::format(",,,{},{},,,,,\n", field(each.value), field(each.error));
   }
+  std::vector<Quantity> done;
+  for (const Statistics& each : assessment.statistics) {
+    if (std::ranges::find(done, each.quantity) != done.end()) continue;
+    done.push_back(each.quantity);
+    for (const PrecisionShift& shift : single_less_double(each.quantity)) {
+      const schema::Job job{
+          .e = precision_e, .n = precision_n, .particles = shift.particles, .precision = "single"};
+      begin("shift", shift.quantity, job, "single less double");
+      csv << fmt::format(",{},,{},{},,,,,\n", shift.realizations, field(shift.value),
+                         field(shift.error));
+    }
+  }
   for (const Advice& each : advised) {
     if (!each.offer) continue;
     begin("advice", each.quantity, each.offer->job, "finite size");
@@ -422,7 +459,7 @@ int cost(const schema::Reader& store, const CostRequest& request, std::ostream& 
   print_statistics(assessment, report);
   print_shifts(assessment, report);
   print_unknown(assessment, report);
-  print_precision(store, report);
+  print_precision(assessment, store, report);
   print_absent(assessment, report);
   print_unanswered(assessment, request, advised, report);
   print_advice(advised, report);
