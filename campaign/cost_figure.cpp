@@ -123,11 +123,10 @@ std::vector<const Shift*> seen_shifts(const Assessment& assessment, const Statis
 // The measured scatter of one series, the line of slope -1/2 through all its realizations, and its
 // floors.
 void add_series(const Assessment& assessment, const Statistics& each, const std::string& ink,
-                bool named, Reach& time, Reach& error, Panel& panel) {
+                Reach& time, Reach& error, Panel& panel) {
   Curve points{.name = "scatter", .particles = each.job.particles};
   points.look = Look::symbols;
   points.colour = ink;
-  if (named) points.legend = fmt::format("{{/:Italic N}} = {}", count_text(each.job.particles));
   for (const analysis::GroupScatter& group : each.scatter) {
     points.x.push_back(static_cast<double>(group.size) * each.cpu_seconds);
     points.y.push_back(group.scatter);
@@ -166,6 +165,16 @@ void add_series(const Assessment& assessment, const Statistics& each, const std:
   }
 }
 
+// A line of the key for each size, whether or not the first panel has it.
+void add_key(const Inks& inks, Panel& panel) {
+  for (const auto& [particles, ink] : inks) {
+    Curve entry{.legend = fmt::format("{{/:Italic N}} = {}", count_text(particles))};
+    entry.look = Look::symbols;
+    entry.colour = ink;
+    panel.curves.push_back(entry);
+  }
+}
+
 Panel panel_of(const Assessment& assessment, const Members& members, const Inks& inks,
                const Grid& grid, std::size_t place) {
   const Quantity& quantity = members.front()->quantity;
@@ -175,9 +184,10 @@ Panel panel_of(const Assessment& assessment, const Members& members, const Inks&
               .legend = place == 0 ? grid.legend() : "none",
               .small = true,
               .frame = grid.frame(place)};
+  if (place == 0) add_key(inks, panel);
   Reach time, error;
   for (const Statistics* each : one_each_size(members))
-    add_series(assessment, *each, inks.at(each->job.particles), place == 0, time, error, panel);
+    add_series(assessment, *each, inks.at(each->job.particles), time, error, panel);
   constexpr double room = 1.6, room_for_legend = 30;
   panel.x.low = time.low / room;
   panel.x.high = time.high * room;
