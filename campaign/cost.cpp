@@ -231,6 +231,14 @@ bool is_meant(const CostTarget& target, const Quantity& quantity) {
   return target.quantity ? *target.quantity == quantity : target.measure == quantity.measure;
 }
 
+// The errors wanted of a quantity: those that name its window before those of its measure.
+std::vector<double> errors_wanted(const CostRequest& request, const Quantity& quantity) {
+  std::vector<double> named, general;
+  for (const CostTarget& target : request.targets)
+    if (is_meant(target, quantity)) (target.quantity ? named : general).push_back(target.error);
+  return named.empty() ? general : named;
+}
+
 // The least error that a size of the gas has today.
 double least_error(const Assessment& assessment, const std::string& gas, const Quantity& quantity) {
   double least = std::numeric_limits<double>::infinity();
@@ -255,7 +263,7 @@ Advice advise(const Assessment& assessment, Advice wanted, Forecast& forecast) {
   if (std::ranges::none_of(assessment.statistics, is_complete))
     wanted.notes.emplace_back(R"(of no size each run has it: plan a larger "tau_max")");
   if (smaller_might_do(assessment, wanted.gas, wanted.quantity, wanted.target))
-    wanted.notes.emplace_back("more runs of the largest gas would allow a smaller one");
+    wanted.notes.emplace_back("more runs of the largest gas may allow a smaller one");
   return wanted;
 }
 
@@ -269,13 +277,11 @@ std::vector<Advice> advice(const Assessment& assessment, const CostRequest& requ
       return advised.gas == gas && advised.quantity == each.quantity;
     });
     if (known || !(each.error > 0)) continue;
-    std::vector<double> targets;
+    auto targets = errors_wanted(request, each.quantity);
     if (request.targets.empty()) {
       const double today = least_error(assessment, gas, each.quantity);
       targets = {today, today / ambition};
     }
-    for (const CostTarget& asked : request.targets)
-      if (is_meant(asked, each.quantity)) targets.push_back(asked.error);
     for (const double target : targets)
       all.push_back(advise(assessment, {each.quantity, gas, each.job, target}, forecast));
   }
