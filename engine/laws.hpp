@@ -20,11 +20,13 @@
 #include "engine/constant_restitution.hpp"
 #include "engine/contact_duration.hpp"
 #include "engine/elastic_threshold.hpp"
+#include "engine/plastic_impact.hpp"
 #include "engine/viscoelastic.hpp"
 
 namespace haff::engine {
 
-using Laws = std::tuple<ConstantRestitution, ElasticThreshold, ContactDuration, Viscoelastic>;
+using Laws =
+    std::tuple<ConstantRestitution, ElasticThreshold, ContactDuration, Viscoelastic, PlasticImpact>;
 
 // What `make` makes of the law that the model asks for. Throws std::invalid_argument if there is
 // none.

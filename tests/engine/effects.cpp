@@ -7,6 +7,7 @@
 #include "engine/actions.hpp"
 #include "engine/contact.hpp"
 #include "engine/initial.hpp"
+#include "engine/plastic_impact.hpp"
 #include "engine/simulation.hpp"
 #include "engine/viscoelastic.hpp"
 #include "support/gas.hpp"
@@ -137,6 +138,19 @@ TEST_CASE("viscoelastic: e(v) is the series, in any units of speed") {
 
 TEST_CASE("viscoelastic: where the series passes 1 the gas stops") {
   CHECK_THROWS_AS(e_at(1, 2), Breakdown);
+}
+
+// A decade of speed lowers e of metals by 10^(1/4) = 1.78.
+TEST_CASE("plastic: e falls as v^(-1/4) above the yield speed, in any units of speed") {
+  for (const int exponent : {-7, 0, 3}) {
+    const auto e = [&](double speed) {
+      return e_at<PlasticImpact>(speed, {{"speed", 0.25}}, exponent);
+    };
+    CHECK(e(1e-9) == 1);
+    CHECK(e(0.25) == 1);
+    CHECK(e(4) == 0.5);
+    CHECK(e(0.5) / e(5) == doctest::Approx(1.7782794100389228).epsilon(1e-15));
+  }
 }
 
 TEST_CASE("fifth root: the bits are these everywhere") {

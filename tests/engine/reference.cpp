@@ -99,6 +99,8 @@ TEST_CASE("laws of restitution equal the reference") {
   const engine::RestitutionLaw viscoelastic{"viscoelastic", {{"A", 0.3}}};
   agrees<engine::Viscoelastic>(70, 0.4, 1, 7, 42, engine::Prediction::simd, viscoelastic);
   agrees<engine::Viscoelastic>(8, 0.5, 1, 3, 40, engine::Prediction::scalar, viscoelastic);
+  const engine::RestitutionLaw plastic{"plastic", {{"speed", 0.3}}};
+  agrees<engine::PlasticImpact>(70, 0.4, 1, 7, 42, engine::Prediction::simd, plastic);
 }
 
 TEST_CASE("actions equal the reference") {

@@ -1,0 +1,36 @@
+// Plastic spheres: metals that yield where they meet, and the more so the faster they do.
+//
+// K. L. Johnson, Contact Mechanics (Cambridge, 1985), section 11.5: in fully plastic impacts e
+// falls as v^(-1/4) with the normal relative speed v, while below a yield speed spheres deform
+// elastically. Joined at the yield `speed` v_y [sqrt(E(0)/m)],
+//   e = 1 for v <= v_y,   e = (v_y/v)^(1/4) beyond.
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "engine/law.hpp"
+
+namespace haff::engine {
+
+class PlasticImpact : public Forgetful {
+ public:
+  static constexpr std::string_view name = "plastic";
+
+  // There is no e to choose.
+  PlasticImpact(double, const Parameters& parameters) : speed_(positive(parameters, "speed")) {}
+
+  // A fourth root is two square roots, whose every bit IEEE 754 defines.
+  double operator()(const Impact& impact) const {
+    const double speed = std::sqrt(impact.speed2);
+    return speed <= scaled_ ? 1 : std::sqrt(std::sqrt(scaled_ / speed));
+  }
+
+  void scale(int exponent) { scaled_ = std::ldexp(speed_, exponent); }
+
+ private:
+  double speed_;
+  double scaled_ = 0;  // in units of the scaled velocities
+};
+
+}  // namespace haff::engine
