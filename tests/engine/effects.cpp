@@ -31,9 +31,11 @@ void goes_on_from_its_state(const Model& model) {
   CHECK(whole.state() == continued.state());
 }
 
-// e at a collision of this normal speed, in units of velocities scaled by 2^exponent.
-double e_at(double speed, double A, int exponent = 0) {
-  Viscoelastic law(1, {{"A", A}});
+// e of a law that leaves none to choose, at a collision of this normal speed, in units of
+// velocities scaled by 2^exponent.
+template <class Law>
+double e_at(double speed, const Parameters& parameters, int exponent = 0) {
+  Law law(1, parameters);
   law.scale(exponent);
   const Particle nobody{};
   const double scaled = std::ldexp(speed, exponent);
@@ -130,14 +132,16 @@ TEST_CASE("viscoelastic: e(v) is the series, in any units of speed") {
   for (const double v : {1e-12, 0.01, 0.7, 1.0, 3.0})
     for (const int exponent : {-7, -5, 0, 3, 40}) {
       const double x = 1.15344 * 0.3 * std::pow(v, 0.2);
-      CHECK(e_at(v, 0.3, exponent) == doctest::Approx(1 - x + 0.6 * x * x).epsilon(1e-14));
+      CHECK(e_at<Viscoelastic>(v, {{"A", 0.3}}, exponent) ==
+            doctest::Approx(1 - x + 0.6 * x * x).epsilon(1e-14));
     }
   // Its minimum, 7/12 at x = 5/6.
-  CHECK(e_at(1, 5.0 / 6 / 1.15344) == doctest::Approx(7.0 / 12).epsilon(1e-14));
+  CHECK(e_at<Viscoelastic>(1, {{"A", 5.0 / 6 / 1.15344}}) ==
+        doctest::Approx(7.0 / 12).epsilon(1e-14));
 }
 
 TEST_CASE("viscoelastic: where the series passes 1 the gas stops") {
-  CHECK_THROWS_AS(e_at(1, 2), Breakdown);
+  CHECK_THROWS_AS((e_at<Viscoelastic>(1, {{"A", 2}})), Breakdown);
 }
 
 // A decade of speed lowers e of metals by 10^(1/4) = 1.78.
