@@ -340,7 +340,8 @@ class SimdSearch {
       const Reals d;
       const V flight = hn::Div(hn::Max(pair.gap, hn::Zero(d)),
                                hn::Sub(hn::Sqrt(pair.discriminant), pair.approach));
-      // Of those who pass by, a root of a negative number: NaN, and that is not earlier than anything.
+      // Of those who pass by, a root of a negative number: NaN, and that is not earlier than
+      // anything.
       const V at = hn::IfThenElse(hn::Lt(pair.approach, hn::Set(d, -smallest_approach)),
                                   hn::Add(pair.start, flight), hn::Set(d, never));
       const auto earlier = hn::Lt(at, time);
