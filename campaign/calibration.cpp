@@ -20,8 +20,8 @@ namespace {
 constexpr std::uint32_t largest = 200'000;
 constexpr double densest = 0.9;
 
-// Large enough to tell the memory of a particle.
-constexpr std::uint32_t small_gas = 4000;
+// Large enough to tell the memory of a particle in a larger one, too.
+constexpr std::uint32_t small_gas = 16'000;
 
 // Between two looks at the clock, where samples do not come more often; and the least that is run,
 // so that effects which act once per collision and particle are seen. [collisions per particle]
