@@ -185,9 +185,8 @@ std::string predictions_text(const std::vector<TargetProgress>& targets) {
   for (const TargetProgress& each : targets)
     if (const auto& predicted = each.target.prediction)
       text += fmt::format(
-          "{} (e {}, n {}, N {}): {} realizations and {} were expected after the pilot runs; {} "
-          "are "
-          "done and took {}\n",
+          "{} (e {}, n {}, N {}): {} realizations and {} were expected after the pilot runs; "
+          "{} are done and took {}\n",
           describe(each.target), e_text(each.job), number_text(each.job.n),
           count_text(each.job.particles),
           count_text(static_cast<long long>(predicted->realizations)),

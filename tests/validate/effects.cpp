@@ -89,9 +89,10 @@ TEST_CASE("a shuffled gas stays at a2 = -A/B for 100 collisions per particle") {
     // Theory knows no structure. Just after a collision a slow pair is still near contact; a
     // shuffle sends half of those pairs at each other again at once, whatever their speed, without
     // the weight v_n with which collisions choose pairs: the mean loss per collision is lower. It
-    // vanishes with n, and grows with the number of shuffles (N = 4000, 10 < tau <= 60, +- 0.0015;
-    // n = 0.4: every 0.2: 0.974, 1: 0.980, 5: 0.985; n = 0.05: 0.987, 0.992, 0.995). ln T after 100
-    // collisions repeats to 0.01 of 9.
+    // vanishes with n, and grows with the number of shuffles (N = 4000, 10 < tau <= 60, eight
+    // seeds,
+    // +- 0.001; every 0.2, 1, 5: 0.975, 0.980, 0.986 at n = 0.4, 0.989, 0.995, 0.994 at n = 0.05).
+    // ln T after 100 collisions repeats to 0.01 of 9.
     const double tolerance = n < 0.1 ? 0.005 : 0.03;
     CHECK(std::abs(gamma_ratio(series, e) - analysis::boltzmann_gamma_ratio(plateau)) < tolerance);
   }
