@@ -74,7 +74,9 @@ Forecast::Forecast(const std::vector<schema::JobRow>& known) {
 std::optional<double> Forecast::known_seconds_per_collision(const schema::Job& job) {
   for (const std::string& which : {alike(job), alike_but_for_e(job)}) {
     const auto found = known_.find(which);
-    if (found == known_.end() || found->second.cpu_seconds < trustworthy) continue;
+    if (found == known_.end() || found->second.cpu_seconds < trustworthy ||
+        found->second.collisions == 0)  // it has only begun
+      continue;
     used_store_ = true;
     return found->second.cpu_seconds / found->second.collisions;
   }

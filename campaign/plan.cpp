@@ -119,8 +119,7 @@ void print_targets(const std::vector<TargetProgress>& targets) {
     fmt::print(
         "A target's pilot runs, the {} seeds of the grid, come first. They tell how many "
         "realizations it takes:\nplan again once they are done, or look at `status`; `run` adds "
-        "the "
-        "others by itself.\n",
+        "the others by itself.\n",
         unknown->target.pilots.size());
 }
 

@@ -74,8 +74,8 @@ class Calendar {
  private:
   using Slot = std::uint64_t;  // counted from time zero
   static constexpr double events_per_slot = 12;
-  // A window holds the events of a small gas nearly all, which then go to their slots at once (3
-  // %); of a large one's it holds as many as stay in cache (4096 slots cost a tenth at 32 000).
+  // A window holds nearly all events of a small gas, which then go to their slots at once: 3 %. Of
+  // a large one it holds as many as stay in cache: 1024 slots and more are slower at 32 000.
   static constexpr std::uint32_t small = 16000;
   static constexpr unsigned bits_if_small = 10;
   static constexpr unsigned bits_if_large = 6;
@@ -95,8 +95,7 @@ class Calendar {
   };
   struct List {
     std::uint32_t chunk = none;
-    std::uint32_t count =
-        in_chunk;  // in the newest chunk; a full one makes the next append open another
+    std::uint32_t count = in_chunk;  // in the newest; once it is full the next append opens another
   };
 
   // Far beyond any window, and infinity: kept aside, as the conversion would overflow.
