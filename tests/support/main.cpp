@@ -1,3 +1,3 @@
-// The one main() of every test program.
+// Compiled once, for all test programs: it is the larger part of doctest.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
