@@ -33,7 +33,7 @@ constexpr double precision = 1e-12;  // of that logarithm
 }  // namespace
 
 double packing_fraction(const BinaryMixture& gas) {
-  return std::numbers::pi / 6 * gas.n * moment(gas, 3);
+  return std::numbers::pi / (gas.d == 2 ? 4 : 6) * gas.n * moment(gas, gas.d);
 }
 
 double contact_value(const BinaryMixture& gas, int i, int j) {
@@ -42,8 +42,9 @@ double contact_value(const BinaryMixture& gas, int i, int j) {
   const auto species = species_of(gas);
   const double a = species.at(static_cast<std::size_t>(i - 1)).diameter;
   const double b = species.at(static_cast<std::size_t>(j - 1)).diameter;
-  const double y = 2 * a * b / (a + b) * moment(gas, 2) / moment(gas, 3);
+  const double y = 2 * a * b / (a + b) * moment(gas, gas.d - 1) / moment(gas, gas.d);
   const double free = 1 - phi;
+  if (gas.d == 2) return 1 / free + 9.0 / 16 * phi * y / (free * free);
   return 1 / free + 1.5 * phi * y / (free * free) + 0.5 * phi * phi * y * y / (free * free * free);
 }
 
@@ -57,19 +58,20 @@ double cooling_rate(const BinaryMixture& gas, int i, double temperature_1, doubl
     const double mu = species[other].mass / (species[own].mass + species[other].mass);
     const double contact = 0.5 * (species[own].diameter + species[other].diameter);
     const double chi = contact_value(gas, i, static_cast<int>(other) + 1);
-    rate += gas.n * species[other].fraction * chi * contact * contact * mu * (1 + gas.e) *
+    const double target = gas.d == 2 ? contact : contact * contact;
+    rate += gas.n * species[other].fraction * chi * target * mu * (1 + gas.e) *
             std::sqrt(speed2(own) + speed2(other)) *
             (1 - 0.5 * mu * (1 + gas.e) * (1 + speed2(other) / speed2(own)));
   }
-  return 8 * std::sqrt(std::numbers::pi) / 3 * rate;
+  return (gas.d == 2 ? 2.0 : 8.0 / 3) * std::sqrt(std::numbers::pi) * rate;
 }
 
-double temperature_ratio(const BinaryMixture& gas) {
+namespace {
+
+// The ratio T_1/T_2 at which a function of its logarithm is zero.
+template <class Difference>
+double ratio_of(const Difference& difference) {
   gsl::report_errors();
-  const auto difference = [&](double log_ratio) {
-    const double ratio = std::exp(log_ratio);
-    return cooling_rate(gas, 1, ratio, 1) - cooling_rate(gas, 2, ratio, 1);
-  };
   gsl_function function = gsl::view(difference);
   const gsl::Owned<gsl_root_fsolver, gsl_root_fsolver_free> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent));
@@ -82,6 +84,22 @@ double temperature_ratio(const BinaryMixture& gas) {
       break;
   }
   return std::exp(gsl_root_fsolver_root(solver.get()));
+}
+
+}  // namespace
+
+double temperature_ratio(const BinaryMixture& gas) {
+  return ratio_of([&](double log_ratio) {
+    const double ratio = std::exp(log_ratio);
+    return cooling_rate(gas, 1, ratio, 1) - cooling_rate(gas, 2, ratio, 1);
+  });
+}
+
+double heated_temperature_ratio(const BinaryMixture& gas) {
+  return ratio_of([&](double log_ratio) {
+    const double ratio = std::exp(log_ratio);
+    return cooling_rate(gas, 1, ratio, 1) * ratio - cooling_rate(gas, 2, ratio, 1) / gas.mass_ratio;
+  });
 }
 
 }  // namespace haff::analysis

@@ -6,15 +6,20 @@
 namespace haff::analysis {
 namespace {
 
+// dT/dtau = -translation T + b R, and dR/dtau = -rotation R + c T.
 struct Rates {
   Rates(double e, const Roughness& roughness) {
     const double q = roughness.q;
+    const double d = roughness.d;
     const double eta = q * (1 + roughness.beta) / (2 * (1 + q));
-    a = (1 - e * e) / 4 + eta * (1 - eta);
-    b = eta * eta / q;
-    c = eta / q * (1 - eta / q);
+    const double to_t = 2 * (d - 1) / d;
+    const double to_r = 2 * (d - 1) / (d * (d - 1) / 2);
+    translation = to_t * ((1 - e * e) / (2 * (d - 1)) + eta * (1 - eta));
+    rotation = to_r * (eta / q * (1 - eta / q));
+    b = to_t * (eta * eta / q);
+    c = to_r * (eta * eta / q);
   }
-  double a, b, c;
+  double translation, rotation, b, c;
 };
 
 }  // namespace
@@ -22,25 +27,25 @@ struct Rates {
 double rough_temperature_ratio(double e, const Roughness& roughness) {
   const Rates rates(e, roughness);
   if (rates.b == 0) return std::numeric_limits<double>::infinity();
-  const double h = (rates.a - rates.c) / (2 * rates.b);
-  const double root = std::sqrt(1 + h * h);
-  return h > 0 ? h + root : 1 / (root - h);  // without cancellation
+  const double h = (rates.translation - rates.rotation) / (2 * rates.b);
+  const double r = rates.c / rates.b;
+  const double root = std::sqrt(r + h * h);
+  return h > 0 ? h + root : r / (root - h);  // without cancellation
 }
 
-// Linear in T and R on the clock tau: the exponential of a symmetric matrix.
+// Linear in T and R on the clock tau: the exponential of a matrix.
 RoughTemperatures rough_temperatures(double tau, double e, const Roughness& roughness,
                                      const RoughTemperatures& start) {
   const Rates rates(e, roughness);
-  const double mean = (rates.a + rates.c) / 2;
-  const double half = (rates.a - rates.c) / 2;
-  const double spread = std::sqrt(half * half + rates.b * rates.b);
-  const double x = 4.0 / 3 * tau;
-  const double decay = std::exp(-mean * x);
-  const double even = std::cosh(spread * x);
-  const double odd = spread > 0 ? std::sinh(spread * x) / spread : x;
+  const double mean = (rates.translation + rates.rotation) / 2;
+  const double half = (rates.translation - rates.rotation) / 2;
+  const double spread = std::sqrt(half * half + rates.b * rates.c);
+  const double decay = std::exp(-mean * tau);
+  const double even = std::cosh(spread * tau);
+  const double odd = spread > 0 ? std::sinh(spread * tau) / spread : tau;
   const auto [T, R] = start;
   return {.translation = decay * (even * T + odd * (rates.b * R - half * T)),
-          .rotation = decay * (even * R + odd * (rates.b * T + half * R))};
+          .rotation = decay * (even * R + odd * (rates.c * T + half * R))};
 }
 
 }  // namespace haff::analysis

@@ -153,7 +153,8 @@ schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double t
     measure_temperature(sample, temperature, tally.virial, static_cast<double>(collisions), job,
                         previous);
     if (const auto energy = gas.rotational_energy())
-      sample.rotational_temperature = std::ldexp(*energy * 2 / job.d, -2 * gas.exponent());
+      sample.rotational_temperature =
+          std::ldexp(*energy * 2 / axes_of_rotation(job.d), -2 * gas.exponent());
     if (mixture) measure_species(sample, gas, *mixture, job);
   }
   if (asks_for(job, "laguerre")) measure_laguerre(sample, moments.laguerre);

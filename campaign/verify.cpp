@@ -36,24 +36,28 @@ constexpr double elastic_drift = 1e-9;
 
 using Faults = std::vector<std::string>;
 
-// Of translation and, in rough spheres, rotation: what collisions cannot make more.
-double total(const Sample& sample) {
-  return *sample.temperature + sample.rotational_temperature.value_or(0);
+// (2/d) of the energy per particle, of translation and, in rough spheres, rotation: what collisions
+// cannot make more.
+double total(const Sample& sample, const schema::Job& job) {
+  return *sample.temperature +
+         sample.rotational_temperature.value_or(0) * axes_of_rotation(job.d) / job.d;
 }
 
 double total(const engine::State& state, const schema::Job& job) {
   const auto mixture = mixture_in(state);
+  const auto mass_of = [&](std::uint32_t id) { return mixture ? mixture->mass_of(id) : 1; };
   double sum = 0;
   for (std::size_t i = 0; i < state.id.size(); ++i) {
     const auto& v = state.velocity[i];
-    sum +=
-        (mixture ? mixture->mass_of(state.id[i]) : 1) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    sum += mass_of(state.id[i]) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
   const engine::Model model = model_of(job);
   const auto roughness = model.effects.find("roughness");
   const auto spin = state.memory.find("spin");
   if (roughness != model.effects.end() && spin != state.memory.end())
-    for (const double w : spin->second) sum += roughness->second.at("q") * w * w;
+    for (std::size_t i = 0; i < spin->second.size(); ++i)
+      sum += mass_of(static_cast<std::uint32_t>(i / 3)) * roughness->second.at("q") *
+             spin->second[i] * spin->second[i];
   const double components = static_cast<double>(job.d) * state.particles();
   return std::ldexp(sum / components, -2 * state.exponent);
 }
@@ -76,7 +80,7 @@ void check_order(const std::vector<Sample>& samples, const JobRow& row, Faults& 
     if (now.time < before.time)
       faults.push_back(fmt::format("time runs backwards at tau = {}", now.tau));
     if (now.temperature && before.temperature && !is_heated(row.job) &&
-        total(now) > total(before) * (1 + elastic_drift))
+        total(now, row.job) > total(before, row.job) * (1 + elastic_drift))
       faults.push_back(fmt::format("the gas grows warmer at tau = {}", now.tau));
   }
 }
@@ -117,7 +121,7 @@ void check_energy(const engine::State& state, const JobRow& row, const std::vect
     if (!sample.temperature) continue;
     const std::int64_t collisions = engine::collisions_at(sample.tau, row.job.particles);
     if (collisions != state.collisions && is_heated(row.job)) continue;
-    const double excess = temperature / total(sample) - 1;
+    const double excess = temperature / total(sample, row.job) - 1;
     const bool agrees = collisions < state.collisions   ? excess <= energy_rounding
                         : collisions > state.collisions ? excess >= -energy_rounding
                                                         : std::abs(excess) <= energy_rounding;
@@ -125,7 +129,7 @@ void check_energy(const engine::State& state, const JobRow& row, const std::vect
     faults.push_back(
         fmt::format("the checkpoint after {} collisions has temperature {:.17g}, the sample at tau "
                     "= {} {:.17g}",
-                    state.collisions, temperature, sample.tau, total(sample)));
+                    state.collisions, temperature, sample.tau, total(sample, row.job)));
     return;
   }
 }

@@ -28,15 +28,15 @@ std::vector<std::unique_ptr<Action>> actions_of(const Model& model, const State&
   return actions;
 }
 
-void act(const std::vector<std::unique_ptr<Action>>& actions, std::span<Particle> particles,
-         Clock& clock) {
+bool act(const std::vector<std::unique_ptr<Action>>& actions, std::span<Particle> particles,
+         const Clock& clock) {
   bool any = false;
   for (const auto& action : actions)
     if (action->is_due(clock.collisions, particles.size())) {
       action->act(particles, clock);
       any = true;
     }
-  if (any) start(particles, clock);
+  return any;
 }
 
 }  // namespace haff::engine

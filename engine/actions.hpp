@@ -33,8 +33,8 @@ bool is_action(std::string_view name);
 // Those that the model asks for, in the order of the list, in which they are also done.
 std::vector<std::unique_ptr<Action>> actions_of(const Model& model, const State& start);
 
-// Does those that are due; afterwards the clock starts anew from these velocities.
-void act(const std::vector<std::unique_ptr<Action>>& actions, std::span<Particle> particles,
-         Clock& clock);
+// Does those that are due. Whether there was one: the clock then starts anew from its velocities.
+bool act(const std::vector<std::unique_ptr<Action>>& actions, std::span<Particle> particles,
+         const Clock& clock);
 
 }  // namespace haff::engine

@@ -78,19 +78,8 @@ struct Encounter {
   p.time = now;
 }
 
-// Gives a and b, in contact now, the momentum impulse * r and -impulse * r.
-[[gnu::always_inline]] inline void exchange(Particle& a, Particle& b, const Encounter& contact,
-                                            double impulse) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double change = impulse * contact.r[k];
-    a.velocity[k] += change;
-    b.velocity[k] -= change;
-  }
-  ++a.changes;
-  ++b.changes;
-}
-
-// Spheres of diameter sigma.
+// Spheres, or disks, of diameter sigma and mass m: what bodies say of themselves. Those of two
+// species say the same in two_species.hpp.
 struct HardSpheres {
   // Time at which the two touch, or never.
   static double contact_time(const Encounter& pair, const Particle&, const Particle&) {
@@ -101,14 +90,39 @@ struct HardSpheres {
     // The root written so that it does not cancel when the pair is close.
     return pair.start + std::max(gap, 0.0) / (std::sqrt(discriminant) - approach);
   }
+  // Squared distance in contact.
+  static constexpr double contact2(const Particle&, const Particle&) { return 1; }
+  // See Impact.
+  static constexpr double effective_radius(const Particle&, const Particle&) { return 1; }
+  static EqualMasses masses() { return {}; }
+
+  // Of whom a state is.
+  void recall(const State&) {}
+  void store(State&) const {}
 };
 
-// Spheres of mass 1 that carry nothing but their records: what a physics says of itself unless it
-// says otherwise.
-struct OneOfAKind {
-  static EqualMasses masses() { return {}; }
-  static std::optional<Rotation> rotation() { return std::nullopt; }
-  static std::size_t memory() { return 0; }  // bytes, beside the records
+// Changes the velocities of a and b, in contact now, along r; and their numbers of changes.
+[[gnu::always_inline]] inline void exchange(Particle& a, Particle& b, const Encounter& contact,
+                                            double in_a, double in_b) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    a.velocity[k] += in_a * contact.r[k];
+    b.velocity[k] -= in_b * contact.r[k];
+  }
+  ++a.changes;
+  ++b.changes;
+}
+
+// The reduced mass mu = m_a m_b / (m_a + m_b) of two that meet, and its parts mu/m_a, mu/m_b: what
+// a change of their relative velocity is to each. Of equal masses all are 1/2, known beforehand.
+struct ReducedMass {
+  template <class Masses>
+  [[gnu::always_inline]] ReducedMass(const Masses& masses, const Particle& a, const Particle& b) {
+    const double both = masses.of(a) + masses.of(b);
+    value = masses.of(a) * masses.of(b) / both;
+    in_a = masses.of(b) / both;
+    in_b = masses.of(a) / both;
+  }
+  double value, in_a, in_b;
 };
 
 // What a law of restitution (laws.hpp) may know of a collision.
@@ -119,18 +133,55 @@ struct Impact {
   double b_time;
   double now;
   double speed2;  // of approach along the normal, squared, in scaled units
+  // Effective radius sigma_a sigma_b / (sigma_a + sigma_b) and reduced mass of the pair, in those
+  // of a pair of species 1: what the strength of a law of one material depends on.
+  double radius;
+  double mass;
 };
 
-// Smooth spheres; the law says with which e two of them part.
-template <class Law>
-class SmoothSpheres : public HardSpheres, public OneOfAKind {
+// Smooth bodies; the law says with which e two of them part. In general
+//   v_a* = v_a - (mu/m_a) (1+e) [n.(v_a - v_b)] n,   v_b* = v_b + (mu/m_b) (the same),
+// which loses (mu/2) (1 - e^2) [n.(v_a - v_b)]^2.
+template <class Law, class Bodies = HardSpheres>
+class SmoothSpheres : public Bodies {
  public:
-  explicit SmoothSpheres(Law law) : law_(std::move(law)) {}
+  explicit SmoothSpheres(Law law, Bodies bodies = Bodies())
+      : Bodies(std::move(bodies)), law_(std::move(law)) {}
 
   // Lets a and b collide `now`. Adds loss and virial, in the units of the scaled velocities.
   // Returns r.v before, which is negative.
   [[gnu::always_inline]] double collide(Particle& a, Particle& b, double now, const Box& box,
                                         Clock& clock) const {
+    return part(a, b, now, box, clock).approach;
+  }
+
+  // What the law remembers (law.hpp), and the bodies.
+  void recall(const State& state) {
+    Bodies::recall(state);
+    law_.recall(state);
+  }
+  void store(State& state) const {
+    Bodies::store(state);
+    law_.store(state);
+  }
+  void before_synchronization(std::span<const Particle> particles, double now) {
+    law_.before_synchronization(particles, now);
+  }
+  void scale(int exponent) { law_.scale(exponent); }
+
+  // Nothing that turns, and nothing beside the records.
+  static std::optional<Rotation> rotation() { return std::nullopt; }
+  static std::size_t memory() { return 0; }  // bytes
+
+ protected:
+  struct Parting {
+    Encounter contact;  // as they came
+    double approach;    // r.v
+    double distance2;
+  };
+
+  [[gnu::always_inline]] Parting part(Particle& a, Particle& b, double now, const Box& box,
+                                      Clock& clock) const {
     const double a_time = a.time;
     const double b_time = b.time;
     advance(a, now);
@@ -138,21 +189,17 @@ class SmoothSpheres : public HardSpheres, public OneOfAKind {
     const Encounter contact(a, b, now, box);
     const double approach = dot(contact.r, contact.v);
     const double distance2 = dot(contact.r, contact.r);
-    const double e = law_({a, b, a_time, b_time, now, approach * approach / distance2});
-    exchange(a, b, contact, 0.5 * (1 + e) * approach / distance2);
-    clock.tally.virial -= 0.5 * (1 + e) * approach;
-    clock.tally.dissipated += 0.25 * (1 - e * e) * approach * approach / distance2;
-    clock.invariants.closest2 = std::min(clock.invariants.closest2, distance2);
-    return approach;
+    const ReducedMass mass(this->masses(), a, b);
+    const double e = law_({a, b, a_time, b_time, now, approach * approach / distance2,
+                           this->effective_radius(a, b), 2 * mass.value});
+    exchange(a, b, contact, mass.in_a * (1 + e) * approach / distance2,
+             mass.in_b * (1 + e) * approach / distance2);
+    clock.tally.virial -= mass.value * (1 + e) * approach;
+    clock.tally.dissipated += 0.5 * mass.value * (1 - e * e) * approach * approach / distance2;
+    clock.invariants.closest2 =
+        std::min(clock.invariants.closest2, distance2 / this->contact2(a, b));
+    return {contact, approach, distance2};
   }
-
-  // What the law remembers (law.hpp).
-  void recall(const State& state) { law_.recall(state); }
-  void store(State& state) const { law_.store(state); }
-  void before_synchronization(std::span<const Particle> particles, double now) {
-    law_.before_synchronization(particles, now);
-  }
-  void scale(int exponent) { law_.scale(exponent); }
 
  private:
   Law law_;

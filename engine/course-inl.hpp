@@ -42,6 +42,19 @@ class CourseOf : public Course {
   Physics physics_;
 };
 
+// Without SIMD. Of whom images count depends on how small the box is.
+template <class Bodies, int d, class Physics>
+std::unique_ptr<Course> plain(Physics physics, const Gas& gas, const State& start) {
+  if (!Bricks::fits(gas.box))
+    return std::make_unique<CourseOf<PlainSearch<Bodies, Everybody, d>, Physics>>(
+        std::move(physics), start);
+  if (!gas.bricks.tell_images_apart())
+    return std::make_unique<CourseOf<PlainSearch<Bodies, NearImages, d>, Physics>>(
+        std::move(physics), start);
+  return std::make_unique<CourseOf<PlainSearch<Bodies, Near, d>, Physics>>(std::move(physics),
+                                                                           start);
+}
+
 }  // namespace haff::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

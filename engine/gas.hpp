@@ -23,6 +23,9 @@ struct Gas {
     copy_particles(state, particles);
   }
 
+  // Whether of a neighbour only the nearest image can be met.
+  bool tells_images_apart() const { return Bricks::fits(box) && bricks.tell_images_apart(); }
+
   Box box;
   HugeVector<Particle> particles;
   Bricks bricks;

@@ -38,8 +38,9 @@ struct GrowingSpheres {
     const Encounter contact(a, b, now, box);
     const double distance2 = dot(contact.r, contact.r);
     // Reflected in the frame of the surfaces, which move at growth_rate / 2 each.
-    exchange(a, b, contact,
-             dot(contact.r, contact.v) / distance2 - growth_rate / std::sqrt(distance2));
+    const double change =
+        dot(contact.r, contact.v) / distance2 - growth_rate / std::sqrt(distance2);
+    exchange(a, b, contact, change, change);
     return -1;  // growth keeps them apart: nothing for the watchdog
   }
 };

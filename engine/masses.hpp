@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "engine/mixture.hpp"
 #include "engine/particle.hpp"
@@ -10,11 +11,13 @@ namespace haff::engine {
 
 struct EqualMasses {
   static constexpr double of(const Particle&) { return 1; }
+  static constexpr double of(std::uint32_t /*id*/) { return 1; }
   static double of_all(std::size_t particles) { return static_cast<double>(particles); }
 };
 
 struct MixedMasses {
-  double of(const Particle& p) const { return mixture.mass_of(p.id); }
+  double of(const Particle& p) const { return of(p.id); }
+  double of(std::uint32_t id) const { return mixture.mass_of(id); }
   double of_all(std::size_t particles) const {
     return mixture.first + static_cast<double>(particles - mixture.first) * mixture.mass;
   }

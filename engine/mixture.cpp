@@ -43,13 +43,15 @@ void note(const Mixture& mixture, State& state) {
   state.memory[key] = {static_cast<double>(mixture.first), mixture.diameter, mixture.mass};
 }
 
-double relative_rate(const Mixture& mixture, std::uint32_t particles) {
+double relative_rate(const Mixture& mixture, int d, std::uint32_t particles) {
   const double second = 1 - static_cast<double>(mixture.first) / particles;
   const double first = 1 - second;
-  const double between = 0.5 * (1 + mixture.diameter);
+  // How wide a target: a disk of radius sigma_ab, or among disks its diameter.
+  const auto target = [&](double contact) { return d == 2 ? contact : contact * contact; };
   return first * first +
-         2 * first * second * between * between * std::sqrt(0.5 * (1 + 1 / mixture.mass)) +
-         second * second * mixture.diameter * mixture.diameter / std::sqrt(mixture.mass);
+         2 * first * second * target(0.5 * (1 + mixture.diameter)) *
+             std::sqrt(0.5 * (1 + 1 / mixture.mass)) +
+         second * second * target(mixture.diameter) / std::sqrt(mixture.mass);
 }
 
 }  // namespace haff::engine

@@ -1,4 +1,4 @@
-// A binary mixture: spheres of two diameters and masses.
+// A binary mixture: spheres, or disks, of two diameters and masses.
 //
 // Species 1 is the larger one, and gives the units of length and mass; species 2 has diameter
 // diameter_ratio <= 1 and mass mass_ratio. Which species a particle is of follows from its id, so
@@ -39,7 +39,7 @@ Mixture mixture_of(const std::map<std::string, double>& parameters, std::uint32_
 std::optional<Mixture> mixture_in(const State& state);
 void note(const Mixture& mixture, State& state);
 
-// Boltzmann's collision rate at given n and T, in units of that of species 1 alone.
-double relative_rate(const Mixture& mixture, std::uint32_t particles);
+// Boltzmann's collision rate in d dimensions at given n and T, in units of that of species 1 alone.
+double relative_rate(const Mixture& mixture, int d, std::uint32_t particles);
 
 }  // namespace haff::engine

@@ -4,6 +4,8 @@
 // falls as v^(-1/4) with the normal relative speed v, while below a yield speed spheres deform
 // elastically. Joined at the yield `speed` v_y [sqrt(E(0)/m)],
 //   e = 1 for v <= v_y,   e = (v_y/v)^(1/4) beyond.
+// v_y goes as sqrt(R^3/mu), R the effective radius and mu the reduced mass of the pair: in a
+// mixture `speed` is that of two of species 1, and both species are of one material.
 #pragma once
 
 #include <cmath>
@@ -23,7 +25,9 @@ class PlasticImpact : public Forgetful {
   // A fourth root is two square roots, whose every bit IEEE 754 defines.
   double operator()(const Impact& impact) const {
     const double speed = std::sqrt(impact.speed2);
-    return speed <= scaled_ ? 1 : std::sqrt(std::sqrt(scaled_ / speed));
+    const double yield =
+        scaled_ * std::sqrt(impact.radius * impact.radius * impact.radius / impact.mass);
+    return speed <= yield ? 1 : std::sqrt(std::sqrt(yield / speed));
   }
 
   void scale(int exponent) { scaled_ = std::ldexp(speed_, exponent); }

@@ -15,6 +15,7 @@
 #include <hwy/highway.h>
 
 #include <bit>
+#include <type_traits>
 
 #include "engine/search.hpp"
 
@@ -24,14 +25,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // `dimension` is what is d elsewhere: Highway has that name for the type of a vector's elements.
 #if HWY_TARGET == HWY_SCALAR  // processors without vectors worth the name
-template <int dimension = 3>
-using SimdSearch = PlainSearch<HardSpheres, Near, dimension>;
+template <int dimension = 3, class Bodies = HardSpheres>
+using SimdSearch = PlainSearch<Bodies, Near, dimension>;
 #else
 
-template <int dimension = 3>
+template <int dimension = 3, class Bodies = HardSpheres>
 class SimdSearch {
  public:
-  SimdSearch(const Gas& gas, const HardSpheres&) : gas_(gas) {}
+  SimdSearch(const Gas& gas, const Bodies& bodies) : gas_(gas), bodies_(bodies) {}
 
   HWY_INLINE Contact around(std::uint32_t p, Cell cell, double now) {
     const std::size_t count = gather(p, around(cell), list_);
@@ -129,6 +130,8 @@ class SimdSearch {
       __builtin_prefetch(gas_.particles.data() + Bricks::particle_in(list_[k]), 0, 3);
   }
 
+  static constexpr bool all_alike = std::is_same_v<Bodies, HardSpheres>;
+
   using Slots = hn::CappedTag<std::uint32_t, 8>;
   using Reals = hn::CappedTag<double, 4>;
   using V = hn::Vec<Reals>;
@@ -206,6 +209,7 @@ class SimdSearch {
 
   struct Records {
     V x, y, z, t, vx, vy, vz;
+    V names;  // bits of id and changes
   };
 
   // The records of as many candidates as a vector has lanes, one coordinate a vector.
@@ -232,11 +236,10 @@ class SimdSearch {
       high = hn::InterleaveUpper(d, even, odd);
     };
     Records r;
-    V names;
     pair(0, r.x, r.y);
     pair(2, r.z, r.t);
     pair(4, r.vx, r.vy);
-    if constexpr (dimension == 3) pair(6, r.vz, names);
+    if constexpr (dimension == 3 || !all_alike) pair(6, r.vz, r.names);
     return r;
   }
 
@@ -282,7 +285,7 @@ class SimdSearch {
       const Particle& own = gas_.particles[p];
       const Particle& other = gas_.particles[q];
       if (q == p) continue;
-      keep_first(best, {HardSpheres::contact_time({own, other, now, gas_.box}, own, other), q},
+      keep_first(best, {bodies_.contact_time({own, other, now, gas_.box}, own, other), q},
                  gas_.particles);
     }
     return best;
@@ -321,9 +324,24 @@ class SimdSearch {
     relative(1, other.y, other.vy, ry, vy);
     if constexpr (dimension == 3) relative(2, other.z, other.vz, rz, vz);
     const V approach = dot(rx, ry, rz, vx, vy, vz);
-    const V gap = hn::Sub(dot(rx, ry, rz, rx, ry, rz), hn::Set(d, 1.0));
+    const V gap = hn::Sub(dot(rx, ry, rz, rx, ry, rz), contact2(own, other));
     return {start, approach, gap,
             hn::Sub(hn::Mul(approach, approach), hn::Mul(dot(vx, vy, vz, vx, vy, vz), gap))};
+  }
+
+  // Squared distances in contact. Species follow from ids, which are doubles' lower halves.
+  HWY_INLINE V contact2(const Particle& own, const Records& other) const {
+    const Reals d;
+    if constexpr (all_alike) {
+      return hn::Set(d, 1.0);
+    } else {
+      const hn::RebindToSigned<Reals> names;
+      const auto id = hn::And(hn::BitCast(names, other.names), hn::Set(names, 0xffffffff));
+      const auto is_first = hn::Lt(id, hn::Set(names, bodies_.mixture().first));
+      return hn::IfThenElse(hn::RebindMask(d, is_first),
+                            hn::Set(d, bodies_.contact2_with_first(own)),
+                            hn::Set(d, bodies_.contact2_with_second(own)));
+    }
   }
 
   using Names = hn::RebindToUnsigned<Reals>;
@@ -364,6 +382,7 @@ class SimdSearch {
   }
 
   const Gas& gas_;
+  [[no_unique_address]] Bodies bodies_;
   List list_ = List(8 * Bricks::slots + slack);
   List other_list_ = list_;
 };

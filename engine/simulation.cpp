@@ -92,9 +92,8 @@ class Simulation::Implementation {
         return other.course(model, gas, state, prediction);
     if (mixture_in(state))
       throw std::invalid_argument("the state is of a mixture, and the model asks for none");
-    const bool simd =
-        prediction == Prediction::simd && Bricks::fits(gas.box) && gas.bricks.tell_images_apart();
-    if (!simd) return plain_course(model, gas, state);
+    if (prediction == Prediction::scalar || !gas.tells_images_apart())
+      return plain_course(model, gas, state);
     if (gas.box.d == 2) return disks_course(model, state);
     return HWY_DYNAMIC_DISPATCH(simd_course)(model, gas, state);
   }
@@ -104,7 +103,7 @@ class Simulation::Implementation {
     course->audit(gas,
                   allowed_overlap(count() / gas.box.volume(), gas.clock.now / expected, gas.box.d));
     course->synchronize(gas);
-    act(actions, gas.particles, gas.clock);
+    if (act(actions, gas.particles, gas.clock)) course->start(gas);
     begin_period();
   }
 

@@ -2,11 +2,13 @@
 //
 // T. P. C. van Noije and M. H. Ernst, Granular Matter 1, 57 (1998), cond-mat/9803042: every
 // particle feels a random acceleration <xi_a(t) xi_b(t')> = xi_0^2 delta_ab delta(t - t'). It gives
-// the gas `rate` = d m xi_0^2 / 2 of energy per particle and unit of time [E(0) / (sigma
-// sqrt(m/E(0)))].
+// the gas `rate` = d <m> xi_0^2 / 2 of energy per particle and unit of time [E(0) / (sigma
+// sqrt(m/E(0)))]. In a mixture both species feel the same accelerations, as if shaken with their
+// container: so S. R. Dahl, C. M. Hrenya, V. Garzo and J. W. Dufty, Phys. Rev. E 66, 041301 (2002),
+// cond-mat/0205413.
 //
 // Done as kicks, normal deviates of the variance that the noise would have added since the last
-// one, from which their mean is taken, so that momentum stays.
+// one, from which that of the centre of mass is taken, so that momentum stays.
 #pragma once
 
 #include <cmath>
@@ -26,7 +28,11 @@ class Thermostat : public Action {
   static constexpr std::string_view name = "thermostat";
 
   Thermostat(const Parameters& parameters, std::uint64_t seed, const State& start)
-      : rate_(positive(parameters, "rate")), seed_(seed), d_(start.d), last_(start.time) {
+      : rate_(positive(parameters, "rate")),
+        seed_(seed),
+        d_(start.d),
+        mixture_(mixture_in(start)),
+        last_(start.time) {
     if (const auto found = start.memory.find(key); found != start.memory.end())
       last_ = found->second.at(0);
   }
@@ -36,16 +42,10 @@ class Thermostat : public Action {
   }
 
   void act(std::span<Particle> particles, const Clock& clock) override {
-    const double count = static_cast<double>(particles.size());
-    const double variance = 2 * rate_ / d_ * (clock.time() - last_);
-    last_ = clock.time();
-    // What the mean takes away is made up for.
-    const double width = std::ldexp(std::sqrt(variance * count / (count - 1)), clock.exponent);
-    Random random(seed_, Stream::thermostat, static_cast<std::uint64_t>(clock.collisions));
-    for (Particle& p : particles)
-      for (double& v : std::span(p.velocity).first(static_cast<std::size_t>(d_)))
-        v += width * random.normal();
-    remove_momentum(particles);
+    if (mixture_)
+      kick(particles, clock, MixedMasses{*mixture_});
+    else
+      kick(particles, clock, EqualMasses{});
   }
 
   void store(State& state) const override { state.memory[key] = {last_}; }
@@ -53,9 +53,28 @@ class Thermostat : public Action {
  private:
   static constexpr const char* key = "last_kick";
 
+  template <class Masses>
+  void kick(std::span<Particle> particles, const Clock& clock, const Masses& masses) {
+    const double mass = masses.of_all(particles.size());
+    double squares = 0;
+    for (const Particle& p : particles) squares += masses.of(p) * masses.of(p);
+    const double variance =
+        2 * rate_ * static_cast<double>(particles.size()) / (d_ * mass) * (clock.time() - last_);
+    last_ = clock.time();
+    // What the centre of mass takes away is made up for.
+    const double width =
+        std::ldexp(std::sqrt(variance * mass / (mass - squares / mass)), clock.exponent);
+    Random random(seed_, Stream::thermostat, static_cast<std::uint64_t>(clock.collisions));
+    for (Particle& p : particles)
+      for (double& v : std::span(p.velocity).first(static_cast<std::size_t>(d_)))
+        v += width * random.normal();
+    remove_momentum(particles, masses);
+  }
+
   double rate_;
   std::uint64_t seed_;
   int d_;
+  std::optional<Mixture> mixture_;
   double last_;  // time of the last kick [sigma sqrt(m/E(0))]
 };
 

@@ -3,7 +3,9 @@
 // R. Ramirez, T. Poeschel, N. V. Brilliantov, T. Schwager, PRE 60, 4465 (1999), eq. (22): with the
 // normal relative speed v and x = C_1 A v^(1/5),
 //   e = 1 - x + (3/5) x^2,   C_1 = 1.15344,
-// where A has taken up the elastic constant [(sqrt(E(0)/m))^(-1/5)]. The series has its minimum,
+// where A has taken up the elastic constant [(sqrt(E(0)/m))^(-1/5)]. That is in proportion to
+// (sqrt(R)/mu)^(2/5), R the effective radius and mu the reduced mass of the pair: in a mixture A is
+// that of two of species 1, and both species are of one material. The series has its minimum,
 // 0.583, at x = 5/6, and returns to 1 at 5/3: beyond it says nothing about spheres.
 // A gas of them cools as T ~ t^(-5/3).
 #pragma once
@@ -40,7 +42,8 @@ class Viscoelastic : public Forgetful {
   Viscoelastic(double, const Parameters& parameters) : strength_(c1 * positive(parameters, "A")) {}
 
   double operator()(const Impact& impact) const {
-    const double x = scaled_ * fifth_root(std::sqrt(impact.speed2) * remainder_);
+    const double softness = impact.radius / (impact.mass * impact.mass);
+    const double x = scaled_ * fifth_root(std::sqrt(impact.speed2) * remainder_ * softness);
     if (x > 5.0 / 3) [[unlikely]]
       too_fast(impact);
     return 1 - x + 0.6 * (x * x);

@@ -73,7 +73,8 @@ double expected_period(const Gas& gas) {
   const double temperature = 2.0 / gas.box.d * gas.clock.energy;
   double rate = (gas.box.d == 2 ? 2 : 4) * density * std::sqrt(std::numbers::pi * temperature);
   if (gas.mixture)
-    rate *= relative_rate(*gas.mixture, static_cast<std::uint32_t>(gas.particles.size()));
+    rate *=
+        relative_rate(*gas.mixture, gas.box.d, static_cast<std::uint32_t>(gas.particles.size()));
   return synchronization_period / rate;
 }
 

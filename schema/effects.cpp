@@ -11,18 +11,16 @@ namespace haff::schema {
 
 namespace {
 
-// Two that do not go together, or that nobody has written yet, and why.
+// Two that do not go together, and why.
 struct Exclusion {
   std::string_view one;
   std::string_view other;
   std::string_view why;
 };
 
-constexpr std::array<Exclusion, 3> exclusions{{
-    {"mixture", "roughness", "are not implemented together: rough spheres are equal ones"},
+constexpr std::array<Exclusion, 1> exclusions{{
     {"mixture", "shuffle",
      "do not go together: species of different mass cannot exchange velocities"},
-    {"mixture", "thermostat", "are not implemented together: its noise is that of equal masses"},
 }};
 
 // Heated, or with more than one temperature.
@@ -45,10 +43,6 @@ std::optional<std::string> nonsense(const Json& effects) {
   for (const auto& [one, other, why] : exclusions)
     if (asks_for(effects, one) && asks_for(effects, other))
       return std::string(one) + " and " + std::string(other) + " " + std::string(why);
-  if (const auto law = law_without_e(effects); law && asks_for(effects, "mixture"))
-    return "mixture and the " + *law +
-           " law are not implemented together: its strength depends on the sizes and masses of a "
-           "pair";
   return std::nullopt;
 }
 

@@ -23,10 +23,6 @@ namespace {
 // Disks that touch six others each. [sigma^-2]
 constexpr double densest_disks = 2 / std::numbers::sqrt3;
 
-// What is implemented for disks; another effect is refused beside d = 2, by name.
-constexpr std::array<std::string_view, 3> effects_of_disks = {"restitution", "shuffle",
-                                                              "thermostat"};
-
 // Below this side of the box a sphere would meet another one and its image at once. [sigma]
 constexpr double smallest_box = 2;
 
@@ -383,12 +379,6 @@ class Examiner {
         throw fault(file_, density.where,
                     shown(density.value) + " is too dense for disks (d = 2); expected n below " +
                         "2/sqrt(3) = 1.1547 (close packing)");
-    for (const Placed& effects : items(source["effects"]))
-      for (const auto& [name, effect] : effects.value.items())
-        if (std::find(effects_of_disks.begin(), effects_of_disks.end(), name) ==
-            effects_of_disks.end())
-          throw fault(file_, effects.where / name,
-                      "is not implemented for disks (d = 2); expected d = 3 with it");
   }
 
   void fits_in_box(const Placed& particles, double N, double n, int d) const {

@@ -62,7 +62,8 @@ struct Sample {
   std::optional<double> a2 = {}, a3 = {}, a4 = {}, a5 = {}, a6 = {};  // Laguerre coefficients
   std::optional<double> correlation_trace = {};  // Tr G^+(0) [E(0)/m], where profiles are taken
   std::optional<double> largest_cluster = {};    // part of the particles, where profiles are taken
-  std::optional<double> rotational_temperature = {};  // (I/3) <omega^2> [E(0)], roughness
+  std::optional<double> rotational_temperature =
+      {};  // (I/3) <omega^2>, of disks I <omega^2> [E(0)], roughness
   std::optional<double> temperature_1 = {}, temperature_2 = {};  // of each species [E(0)], mixture
 
   bool operator==(const Sample&) const = default;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <numbers>
 
 #include "analysis/enskog.hpp"
 
@@ -21,6 +22,30 @@ TEST_CASE("mixture: of equal spheres it is the gas of one species") {
           Approx((1 - 0.64) / 3 * transport(0.4, 0.7).collision_rate).epsilon(1e-12));
   }
   CHECK(temperature_ratio(gas) == Approx(1).epsilon(1e-9));
+}
+
+TEST_CASE("mixture: of equal disks it is the gas of one species") {
+  const BinaryMixture gas{.e = 0.8, .n = 0.4, .fraction = 0.3, .d = 2};
+  CHECK(packing_fraction(gas) == Approx(packing_fraction(0.4, 2)).epsilon(1e-14));
+  for (const int i : {1, 2}) {
+    CHECK(contact_value(gas, i, 2) == Approx(contact_value(0.4, 2)).epsilon(1e-14));
+    // Haff: d ln T/dt = -(1 - e^2)/2 omega_0, with omega_0 = 2 sqrt(pi T) n chi.
+    CHECK(
+        cooling_rate(gas, i, 0.7, 0.7) ==
+        Approx((1 - 0.64) / 2 * 2 * std::sqrt(std::numbers::pi * 0.7) * 0.4 * contact_value(0.4, 2))
+            .epsilon(1e-12));
+  }
+}
+
+TEST_CASE("mixture: noise heats the heavier species more, and both balance their losses") {
+  for (const int d : {2, 3}) {
+    const BinaryMixture gas{.e = 0.9, .n = 0.1, .diameter_ratio = 1, .mass_ratio = 0.2, .d = d};
+    const double ratio = heated_temperature_ratio(gas);
+    CHECK(ratio > temperature_ratio(gas));
+    CHECK(cooling_rate(gas, 1, ratio, 1) * ratio ==
+          Approx(cooling_rate(gas, 2, ratio, 1) / 0.2).epsilon(1e-9));
+  }
+  CHECK(heated_temperature_ratio({.e = 0.8, .n = 0.4, .fraction = 0.3}) == Approx(1).epsilon(1e-9));
 }
 
 TEST_CASE("mixture: elastic spheres of any kind have one temperature, and keep it") {

@@ -21,18 +21,18 @@ Model rough(double e, double beta, double q = 0.4) {
 }
 
 // A state with spins, equal in energy to the velocities at q = 2/5.
-State spinning(double n, std::uint32_t particles, std::uint64_t seed) {
-  State state = initial_state(n, particles, seed);
+State spinning(double n, std::uint32_t particles, std::uint64_t seed, int d = 3) {
+  State state = initial_state(n, particles, seed, d);
   auto& spin = state.memory["spin"];
   for (const Vector& v : state.velocity)
-    for (const double x : {v[1], -v[2], v[0]}) spin.push_back(x * std::sqrt(2.5));
+    for (const double x : {d == 3 ? v[1] : 0, -v[2], v[0]}) spin.push_back(x * std::sqrt(2.5));
   return state;
 }
 
 void agrees(const Model& model, const State& start, double tau, Prediction prediction) {
   CAPTURE(start.particles());
   Simulation gas(model, start, prediction);
-  tests::ReferenceOf<RoughSpheres> reference(RoughSpheres(model), model, start);
+  tests::ReferenceOf<RoughSpheres<>> reference(RoughSpheres<>(model), model, start);
   for (std::int64_t c = 1; c <= collisions_at(tau, start.particles()); ++c) {
     gas.run_to(c);
     reference.step();
@@ -53,7 +53,7 @@ struct Pair {
 
   Vector w(std::size_t i) const { return {spin[3 * i], spin[3 * i + 1], spin[3 * i + 2]}; }
   void collide(const Model& model) {
-    RoughSpheres physics(model);
+    RoughSpheres<> physics(model);
     State state;
     state.id = {0, 1};
     state.memory["spin"] = spin;
@@ -133,6 +133,29 @@ TEST_CASE("rough spheres equal the reference") {
   agrees(tc, spinning(0.4, 88, 7), 11, Prediction::scalar);
 }
 
+TEST_CASE("rough disks equal the reference, and stay in their plane") {
+  for (const Prediction prediction : {Prediction::simd, Prediction::scalar})
+    agrees(rough(0.8, 0.5, 0.5), spinning(0.4, 80, 7, 2), 11, prediction);
+  agrees(rough(0.6, -0.5, 0.5), spinning(0.5, 8, 3, 2), 40, Prediction::simd);
+  Model shaken = rough(0.8, 0.5, 0.5);
+  shaken.effects["shuffle"] = {{"every", 2}};
+  shaken.effects["thermostat"] = {{"rate", 0.1}};
+  agrees(shaken, spinning(0.4, 80, 7, 2), 11, Prediction::simd);
+
+  Simulation gas(rough(0.8, 0.5, 0.5), spinning(0.4, 80, 7, 2));
+  gas.run_to(collisions_at(10, 80));
+  const State state = gas.state();
+  for (std::size_t i = 0; i < 80; ++i) {
+    CHECK(state.memory.at("spin")[3 * i] == 0);
+    CHECK(state.memory.at("spin")[3 * i + 1] == 0);
+  }
+  State tilted = state;
+  tilted.memory["spin"][4] = 1;
+  CHECK_THROWS_WITH_AS(Simulation(rough(0.8, 0.5, 0.5), tilted),
+                       "the state remembers disks that turn out of their plane",
+                       std::invalid_argument);
+}
+
 TEST_CASE("rough spheres: those of beta = -1 move as smooth ones") {
   const State start = spinning(0.4, 500, 1);
   Simulation smooth({.restitution = 0.8}, start);
@@ -184,6 +207,4 @@ TEST_CASE("rough spheres: what they need is asked for, by name") {
   few.memory["spin"] = {1, 2, 3};
   CHECK_THROWS_WITH_AS(Simulation(rough(0.8, 0), few),
                        "the state remembers spins of other particles", std::invalid_argument);
-  CHECK_THROWS_WITH_AS(Simulation(rough(0.8, 0), initial_state(0.4, 108, 1, 2)),
-                       "roughness is of spheres: d = 3", std::invalid_argument);
 }

@@ -80,8 +80,8 @@ TEST_CASE("effects: what is wrong within a list is named with its place") {
   const std::string mixture = R"({"fraction": 1e-4, "diameter_ratio": 1, "mass_ratio": 1})";
   CHECK(complaint(R"([{}, {"mixture": [)" + mixture + "]}]")
             .find("g.json: /effects/1/mixture/0/fraction: 0.0001 of 1000 particles") == 0);
-  CHECK(complaint(R"([{}, {"roughness": [{"beta": 0, "q": 0.4}]}], "d": 2)")
-            .find("g.json: /effects/1/roughness: ") == 0);
+  CHECK(complaint(R"([{}, {"roughness": [{"beta": 2, "q": 0.4}]}])")
+            .find("g.json: /effects/1/roughness/0/beta: 2 is not accepted") == 0);
   CHECK(complaint(R"([{}, {"shuffle": {"every": 1}, "mixture": )" + mixture + "}]")
             .find("g.json: /effects/1: mixture and shuffle") == 0);
   const std::string half = R"({"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": 1})";
@@ -136,12 +136,6 @@ TEST_CASE("effects: viscoelastic spheres have no e") {
   CHECK_THROWS_WITH_AS(asked(R"(, "effects": {"shuffle": {"every": 1}})"),
                        "g.json: has no \"e\"; expected a normal restitution coefficient, from 0 to "
                        "1, or a list of them",
-                       GridError);
-  CHECK_THROWS_WITH_AS(asked(R"(, "effects": {"restitution": {"law": "viscoelastic", "A": 0.1},
-                             "mixture": {"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": 1}})"),
-                       "g.json: /effects: mixture and the viscoelastic law are not implemented "
-                       "together: its strength "
-                       "depends on the sizes and masses of a pair",
                        GridError);
   CHECK(complaint(R"({"restitution": {"law": "viscoelastic", "A": 0.7}})") ==
         "g.json: /effects/restitution/A: 0.7 is not accepted; expected a strength of viscous "
@@ -236,25 +230,37 @@ TEST_CASE("effects: what is wrong with roughness or a mixture is named") {
 TEST_CASE("effects: a mixture refuses what is of equal spheres, by name") {
   const std::string mixture =
       R"("mixture": {"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": 0.1})";
-  CHECK(complaint("{" + mixture + R"(, "roughness": {"beta": 0.5, "q": 0.4}})") ==
-        "g.json: /effects: mixture and roughness are not implemented together: rough spheres are "
-        "equal ones");
-  CHECK(complaint("{" + mixture + R"(, "thermostat": {"rate": 1}})") ==
-        "g.json: /effects: mixture and thermostat are not implemented together: its noise is that "
-        "of equal masses");
   CHECK(complaint("{" + mixture + R"(, "shuffle": {"every": 1}})") ==
         "g.json: /effects: mixture and shuffle do not go together: species of different mass "
         "cannot exchange velocities");
   CHECK(complaint("{" + mixture + R"(}, "observables": ["temperature", "clusters"])") ==
         "g.json: /observables/1: \"clusters\" is of equal spheres; with a mixture expected "
         "\"temperature\" or \"laguerre\"");
-  CHECK(complaint("{" + mixture + R"(}, "d": [3, 2])") ==
-        "g.json: /effects/mixture: is not implemented for disks (d = 2); expected d = 3 with it");
-  CHECK(complaint(R"({"roughness": {"beta": 0, "q": 0.4}}, "d": 2)") ==
-        "g.json: /effects/roughness: is not implemented for disks (d = 2); expected d = 3 with it");
   CHECK(complaint(R"({"mixture": {"fraction": 1e-4, "diameter_ratio": 1, "mass_ratio": 1}})") ==
         "g.json: /effects/mixture/fraction: 0.0001 of 1000 particles leaves a species without any; "
         "expected at least one of each");
+}
+
+TEST_CASE("effects: whatever physics allows goes together") {
+  const std::string mixture =
+      R"("mixture": {"fraction": 0.5, "diameter_ratio": 0.5, "mass_ratio": 0.1})";
+  const std::string roughness = R"("roughness": {"beta": 0.5, "q": 0.5})";
+  const std::string laws[] = {
+      R"("e": 0.8, "effects": {)",
+      R"("e": 0.8, "effects": {"restitution": {"law": "tc", "t_c": 1e-3}, )",
+      R"("e": 0.8, "effects": {"restitution": {"law": "threshold", "speed": 1e-3}, )",
+      R"("effects": {"restitution": {"law": "viscoelastic", "A": 0.1}, )",
+      R"("effects": {"restitution": {"law": "plastic", "speed": 0.1}, )"};
+  for (const std::string& law : laws)
+    for (const std::string& others :
+         {mixture, roughness, mixture + ", " + roughness,
+          mixture + ", " + roughness + R"(, "thermostat": {"rate": 1})",
+          roughness + R"(, "shuffle": {"every": 1}, "thermostat": {"rate": 1})"}) {
+      CAPTURE(law + others);
+      CHECK_NOTHROW(parse_grid(
+          R"({"n": 0.4, "N": 1000, "seeds": 1, "tau_max": 90, "d": [2, 3], )" + law + others + "}}",
+          "g.json", {.bytes = 8e9, .bytes_per_particle = 200}));
+    }
 }
 
 TEST_CASE("effects: a mixture equilibrates as one, rough spheres as smooth ones") {

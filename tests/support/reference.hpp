@@ -93,7 +93,8 @@ class ReferenceOf {
                   physics_.rotation().value_or(engine::Rotation{}));
     physics_.before_synchronization(particles_, clock_.now);
     engine::synchronize(particles_, clock_, box_, physics_.masses());
-    engine::act(actions_, particles_, clock_);
+    if (engine::act(actions_, particles_, clock_))
+      engine::start(particles_, clock_, physics_.masses());
     physics_.scale(clock_.exponent);
     next_ = next_stop();
   }

@@ -17,17 +17,19 @@ namespace {
 constexpr std::uint32_t particles = 20'000;
 
 engine::Simulation rough_gas(double n, double e, const analysis::Roughness& roughness) {
-  engine::Simulation melting({.restitution = 1}, engine::initial_state(n, particles, 1));
+  engine::Simulation melting({.restitution = 1},
+                             engine::initial_state(n, particles, 1, roughness.d));
   melting.run_to(engine::collisions_at(20, particles));
   return {{.restitution = e,
            .effects = {{"roughness", {{"beta", roughness.beta}, {"q", roughness.q}}}}},
           engine::restarted(melting.state())};
 }
 
-analysis::RoughTemperatures measured(const engine::Simulation& gas) {
-  return {.translation =
-              std::ldexp(analysis::moments(gas.velocities()).temperature, -2 * gas.exponent()),
-          .rotation = std::ldexp(*gas.rotational_energy() * 2 / 3, -2 * gas.exponent())};
+analysis::RoughTemperatures measured(const engine::Simulation& gas, int d = 3) {
+  return {
+      .translation =
+          std::ldexp(analysis::moments(gas.velocities(), d).temperature, -2 * gas.exponent()),
+      .rotation = std::ldexp(*gas.rotational_energy() * 2 / (d == 2 ? 1 : 3), -2 * gas.exponent())};
 }
 
 }  // namespace
@@ -70,5 +72,27 @@ TEST_CASE("rough spheres: both temperatures follow their equations") {
             now.rotation, " theory ", theory.rotation);
     CHECK(now.translation == doctest::Approx(theory.translation).epsilon(0.02));
     CHECK(now.rotation == doctest::Approx(theory.rotation).epsilon(0.05));
+  }
+}
+
+TEST_CASE("rough disks come to the ratio of temperatures of Huthmann and Zippelius") {
+  // A ratio is known to sqrt(3 / N) = 1.2 % at one time, the mean of five to some 0.8 %; theory takes
+  // velocities and spins for Gaussian, as of spheres. In two dimensions vortices grow soon, whose
+  // energy is of translation alone: at n = 0.05 the ratio is 5 % too small at tau = 15 and 15 % at
+  // tau = 35. Hence a dilute gas, looked at early.
+  for (const double beta : {0.0, 0.5, 0.9}) {
+    const double tolerance = beta < 0.5 ? 0.08 : 0.05;
+    const analysis::Roughness disks{.beta = beta, .q = 0.5, .d = 2};
+    CAPTURE(beta);
+    auto gas = rough_gas(0.01, 0.9, disks);
+    double ratio = 0;
+    for (double tau = 16; tau <= 20; ++tau) {
+      gas.run_to(engine::collisions_at(tau, particles));
+      const auto now = measured(gas, 2);
+      ratio += now.rotation / now.translation / 5;
+    }
+    const double theory = analysis::rough_temperature_ratio(0.9, disks);
+    MESSAGE("d = 2, e = 0.9, beta = ", beta, ": R/T = ", ratio, ", theory ", theory);
+    CHECK(std::abs(ratio / theory - 1) < tolerance);
   }
 }
