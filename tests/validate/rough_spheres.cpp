@@ -76,10 +76,10 @@ TEST_CASE("rough spheres: both temperatures follow their equations") {
 }
 
 TEST_CASE("rough disks come to the ratio of temperatures of Huthmann and Zippelius") {
-  // A ratio is known to sqrt(3 / N) = 1.2 % at one time, the mean of five to some 0.8 %; theory takes
-  // velocities and spins for Gaussian, as of spheres. In two dimensions vortices grow soon, whose
-  // energy is of translation alone: at n = 0.05 the ratio is 5 % too small at tau = 15 and 15 % at
-  // tau = 35. Hence a dilute gas, looked at early.
+  // A ratio is known to sqrt(3 / N) = 1.2 % at one time, the mean of five to some 0.8 %; theory
+  // takes velocities and spins for Gaussian, as of spheres. In two dimensions vortices grow soon,
+  // whose energy is of translation alone: at n = 0.05 the ratio is 5 % too small at tau = 15 and 15
+  // % at tau = 35. Hence a dilute gas, looked at early.
   for (const double beta : {0.0, 0.5, 0.9}) {
     const double tolerance = beta < 0.5 ? 0.08 : 0.05;
     const analysis::Roughness disks{.beta = beta, .q = 0.5, .d = 2};
