@@ -20,7 +20,7 @@ namespace {
 // Panels in rows of three, as wide as high about. [pixels]
 constexpr std::size_t columns = 3;
 constexpr int panel_width = 320, panel_height = 300, room_for_caption = 60;
-constexpr int left_of_axes = 92, right_of_axes = 10, below_axes = 62, above_axes = 18;
+constexpr int left_of_axes = 92, right_of_axes = 22, below_axes = 62, above_axes = 18;
 
 struct Grid {
   std::size_t panels = 0;
