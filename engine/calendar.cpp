@@ -12,11 +12,20 @@ constexpr std::size_t most_ranked = 32;
 using Keys = std::array<std::int32_t, most_ranked>;
 
 template <std::size_t padded>
-void rank_all(const Keys& key, std::size_t count, Keys& rank) {
+[[gnu::always_inline]] inline void rank_all(const Keys& key, std::size_t count, Keys& rank) {
   alignas(64) std::array<std::int32_t, padded> smaller{};
   for (std::size_t j = 0; j < count; ++j)
     for (std::size_t i = 0; i < padded; ++i) smaller[i] += key[j] < key[i] ? 1 : 0;
   for (std::size_t i = 0; i < padded; ++i) rank[i] = smaller[i];
+}
+
+// Whole numbers: no bit depends on which of the two runs.
+[[gnu::target_clones("avx2", "default")]] void rank_keys(const Keys& key, std::size_t count,
+                                                         Keys& rank) {
+  if (count <= most_ranked / 2)
+    rank_all<most_ranked / 2>(key, count, rank);
+  else
+    rank_all<most_ranked>(key, count, rank);
 }
 
 }  // namespace
@@ -92,10 +101,7 @@ void Calendar::sort_in(std::size_t count) {
       key[k] = static_cast<std::int32_t>(in_slot * 0x1p26) << 5 | static_cast<std::int32_t>(k);
     }
     Keys rank;
-    if (count <= most_ranked / 2)
-      rank_all<most_ranked / 2>(key, count, rank);
-    else
-      rank_all<most_ranked>(key, count, rank);
+    rank_keys(key, count, rank);
     for (std::size_t k = 0; k < count; ++k) begin[rank[k]] = found_[k];
   } else {
     std::copy_n(found_.begin(), count, begin);

@@ -34,6 +34,7 @@
 #include <utility>
 
 #include "engine/clock.hpp"
+#include "engine/halves.hpp"
 #include "engine/masses.hpp"
 #include "engine/particle.hpp"
 
@@ -101,17 +102,6 @@ struct HardSpheres {
   void store(State&) const {}
 };
 
-// Changes the velocities of a and b, in contact now, along r; and their numbers of changes.
-[[gnu::always_inline]] inline void exchange(Particle& a, Particle& b, const Encounter& contact,
-                                            double in_a, double in_b) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    a.velocity[k] += in_a * contact.r[k];
-    b.velocity[k] -= in_b * contact.r[k];
-  }
-  ++a.changes;
-  ++b.changes;
-}
-
 // The reduced mass mu = m_a m_b / (m_a + m_b) of two that meet, and its parts mu/m_a, mu/m_b: what
 // a change of their relative velocity is to each. Of equal masses all are 1/2, known beforehand.
 struct ReducedMass {
@@ -127,10 +117,8 @@ struct ReducedMass {
 
 // What a law of restitution (laws.hpp) may know of a collision.
 struct Impact {
-  const Particle& a;
+  const Particle& a;  // as they were after their last collisions (none if their `changes` are 0)
   const Particle& b;
-  double a_time;  // when a and b last collided, unless their `changes` are 0
-  double b_time;
   double now;
   double speed2;  // of approach along the normal, squared, in scaled units
   // Effective radius sigma_a sigma_b / (sigma_a + sigma_b) and reduced mass of the pair, in those
@@ -175,30 +163,31 @@ class SmoothSpheres : public Bodies {
 
  protected:
   struct Parting {
-    Encounter contact;  // as they came
-    double approach;    // r.v
+    Four r, v;        // b relative to a, as they came
+    double approach;  // r.v
     double distance2;
   };
 
   [[gnu::always_inline]] Parting part(Particle& a, Particle& b, double now, const Box& box,
                                       Clock& clock) const {
-    const double a_time = a.time;
-    const double b_time = b.time;
-    advance(a, now);
-    advance(b, now);
-    const Encounter contact(a, b, now, box);
-    const double approach = dot(contact.r, contact.v);
-    const double distance2 = dot(contact.r, contact.r);
+    Halves of_a(a, now), of_b(b, now);
+    Four r = of_b.position - of_a.position;
+    to_nearest_image(r, box);
+    const Four v = of_b.velocity - of_a.velocity;
+    const double approach = dot(r, v);
+    const double distance2 = dot(r, r);
     const ReducedMass mass(this->masses(), a, b);
-    const double e = law_({a, b, a_time, b_time, now, approach * approach / distance2,
-                           this->effective_radius(a, b), 2 * mass.value});
-    exchange(a, b, contact, mass.in_a * (1 + e) * approach / distance2,
-             mass.in_b * (1 + e) * approach / distance2);
+    const double e = law_(
+        {a, b, now, approach * approach / distance2, this->effective_radius(a, b), 2 * mass.value});
+    of_a.velocity += mass.in_a * (1 + e) * approach / distance2 * r;
+    of_b.velocity -= mass.in_b * (1 + e) * approach / distance2 * r;
+    of_a.write(a);
+    of_b.write(b);
     clock.tally.virial -= mass.value * (1 + e) * approach;
     clock.tally.dissipated += 0.5 * mass.value * (1 - e * e) * approach * approach / distance2;
     clock.invariants.closest2 =
         std::min(clock.invariants.closest2, distance2 / this->contact2(a, b));
-    return {contact, approach, distance2};
+    return {r, v, approach, distance2};
   }
 
  private:

@@ -23,8 +23,8 @@ class ContactDuration {
       : e_(e), duration_(positive(parameters, "t_c")) {}
 
   double operator()(const Impact& impact) const {
-    const bool still_touching = impact.now - last(impact.a, impact.a_time) < scaled_ ||
-                                impact.now - last(impact.b, impact.b_time) < scaled_;
+    const bool still_touching =
+        impact.now - last(impact.a) < scaled_ || impact.now - last(impact.b) < scaled_;
     return still_touching ? 1 : e_;
   }
 
@@ -40,7 +40,7 @@ class ContactDuration {
   void store(State& state) const { state.memory[key] = last_; }
 
   void before_synchronization(std::span<const Particle> particles, double now) {
-    for (const Particle& p : particles) last_[p.id] = last(p, p.time) - now;
+    for (const Particle& p : particles) last_[p.id] = last(p) - now;
   }
 
   void scale(int exponent) {
@@ -55,7 +55,7 @@ class ContactDuration {
 
   // A particle's own time is that of its last collision, if it has had one since the
   // synchronization.
-  double last(const Particle& p, double time) const { return p.changes > 0 ? time : last_[p.id]; }
+  double last(const Particle& p) const { return p.changes > 0 ? p.time : last_[p.id]; }
 
   double e_;
   double duration_;           // t_c

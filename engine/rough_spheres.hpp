@@ -53,19 +53,19 @@ class RoughSpheres : public SmoothSpheres<AnyLaw, Bodies> {
 
   [[gnu::always_inline]] double collide(Particle& a, Particle& b, double now, const Box& box,
                                         Clock& clock) {
-    const auto [contact, approach, distance2] = this->part(a, b, now, box, clock);
+    const auto [r, v, approach, distance2] = this->part(a, b, now, box, clock);
     Vector& a_spin = spin_[a.id];
     Vector& b_spin = spin_[b.id];
     const double distance = std::sqrt(distance2);
     Vector n, spins;
     for (std::size_t k = 0; k < 3; ++k) {
-      n[k] = contact.r[k] / distance;
+      n[k] = r[k] / distance;
       spins[k] = a_spin[k] + b_spin[k];
     }
     const Vector turning = cross(spins, n);
     const double normal = approach / distance;
     Vector slip;  // -g_t: swapping a and b negates it, as it does r and v
-    for (std::size_t k = 0; k < 3; ++k) slip[k] = contact.v[k] - normal * n[k] - turning[k];
+    for (std::size_t k = 0; k < 3; ++k) slip[k] = v[k] - normal * n[k] - turning[k];
     const Vector twist = cross(n, slip);
 
     const ReducedMass mass(this->masses(), a, b);

@@ -95,7 +95,7 @@ class SimdSearch {
     // Not zero: 0 / 0 would be taken for a time.
     const V distance =
         hn::Max(hn::Add(hn::Set(d, 0.5 * bricks.cell_side()), ahead), hn::Set(d, 1e-300));
-    const V time = hn::IfThenElse(axes, hn::Div(distance, hn::Abs(v)), hn::Set(d, never));
+    const V time = hn::Div(distance, hn::Abs(v));  // never, where it does not move
     const V first = hn::MinOfLanes(d, time);
     std::uint8_t mask = 0;
     hn::StoreMaskBits(d, hn::Eq(time, first), &mask);
@@ -267,10 +267,9 @@ class SimdSearch {
     const std::size_t bits = mask;
     alignas(32) std::array<std::uint64_t, hn::MaxLanes(Reals())> slot;
     hn::Store(first.slot, Names(), slot.data());
-    const double time =
-        hn::GetLane(hn::IfThenElse(hn::Lt(earliest, hn::Set(d, far)), earliest, hn::Set(d, never)));
+    const double time = hn::GetLane(earliest);
     if (HWY_UNLIKELY((int{(bits & (bits - 1)) != 0} & int{time < never}) |
-                     int{!hn::AllFalse(d, first.tie)}))
+                     int{!hn::AllFalse(d, hn::MaskFromVec(first.tie))}))
       return first_by_id(p, count, candidates, now);
     return {time, Bricks::particle_in(static_cast<std::uint32_t>(
                       slot[static_cast<std::size_t>(std::countr_zero(bits))]))};
@@ -350,20 +349,20 @@ class SimdSearch {
   // Of the candidates that have passed each lane, when the first one touches, and its slot.
   struct First {
     HWY_INLINE explicit First(std::uint32_t p)
-        : time(hn::Set(Reals(), far)),
+        : time(hn::Set(Reals(), never)),
           slot(hn::Set(Names(), std::uint64_t{p} << Bricks::particle_shift)),
-          tie(hn::Lt(time, time)) {}
+          tie(hn::Zero(Reals())) {}
 
     HWY_INLINE void take(const Approach& pair, const std::uint32_t* candidates) {
       const Reals d;
       const V flight = hn::Div(hn::Max(pair.gap, hn::Zero(d)),
                                hn::Sub(hn::Sqrt(pair.discriminant), pair.approach));
-      // Of those who pass by, a root of a negative number: NaN, and that is not earlier than
-      // anything.
-      const V at = hn::IfThenElse(hn::Lt(pair.approach, hn::Set(d, -smallest_approach)),
-                                  hn::Add(pair.start, flight), hn::Set(d, never));
+      // Not a number for those who pass by, whose root is of a negative one, and for those who do
+      // not approach: that is neither earlier than anything nor at the same time.
+      const auto apart = hn::Ge(pair.approach, hn::Set(d, -smallest_approach));
+      const V at = hn::Or(hn::Add(pair.start, flight), hn::VecFromMask(d, apart));
       const auto earlier = hn::Lt(at, time);
-      tie = hn::Or(tie, hn::Eq(at, time));
+      tie = hn::Or(tie, hn::VecFromMask(d, hn::Eq(at, time)));
       time = hn::IfThenElse(earlier, at, time);
       slot = hn::IfThenElse(
           hn::RebindMask(Names(), earlier),
@@ -372,7 +371,7 @@ class SimdSearch {
 
     V time;
     hn::Vec<Names> slot;
-    hn::Mask<Reals> tie;  // whether two touched at the same time
+    V tie;  // all bits set where two touched at the same time
   };
 
   static HWY_INLINE V dot(V ax, V ay, V az, V bx, V by, V bz) {

@@ -39,7 +39,7 @@ double e_at(double speed, const Parameters& parameters, int exponent = 0) {
   law.scale(exponent);
   const Particle nobody{};
   const double scaled = std::ldexp(speed, exponent);
-  return law({nobody, nobody, 0, 0, 0, scaled * scaled, 1, 1});
+  return law({nobody, nobody, 0, scaled * scaled, 1, 1});
 }
 
 }  // namespace
