@@ -344,7 +344,6 @@ class SimdSearch {
   }
 
   using Names = hn::RebindToUnsigned<Reals>;
-  static constexpr double far = std::numeric_limits<double>::max();  // later than any contact
 
   // Of the candidates that have passed each lane, when the first one touches, and its slot.
   struct First {

@@ -232,6 +232,17 @@ TEST_CASE("measurement: rough spheres have a temperature of rotation, no tau_c")
   CHECK_FALSE(measure(smooth, job(0.8), 0, std::nullopt).rotational_temperature);
 }
 
+TEST_CASE("measurement: rough disks turn about one axis") {
+  auto physics = job(0.8);
+  physics.d = 2;
+  physics.effects = R"({"roughness":{"beta":0.5,"q":0.5}})";
+  engine::Simulation gas(model_of(physics), engine::initial_state(0.4, physics.particles, 1, 2));
+  gas.run_to(engine::collisions_at(10, physics.particles));
+  const auto sample = measure(gas, physics, 10, std::nullopt);
+  CHECK(*sample.rotational_temperature ==
+        doctest::Approx(std::ldexp(*gas.rotational_energy(), -2 * gas.exponent()) * 2));
+}
+
 TEST_CASE("measurement: a mixture has the temperatures of its species, and of all") {
   auto physics = job(1);
   physics.effects = R"({"mixture":{"diameter_ratio":0.5,"fraction":0.3,"mass_ratio":0.1}})";
