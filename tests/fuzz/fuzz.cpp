@@ -11,8 +11,8 @@
 #include <exception>
 #include <string>
 
-#include "campaign/checkpoint.hpp"
-#include "campaign/restore.hpp"
+#include "campaign/state/checkpoint.hpp"
+#include "campaign/state/restore.hpp"
 #include "engine/initial.hpp"
 #include "engine/random.hpp"
 #include "engine/simulation.hpp"

@@ -1,0 +1,66 @@
+// What is asked of a cooling gas with an error: one number from each realization.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "campaign/results/pilots.hpp"
+
+namespace haff::campaign {
+
+enum class Measure { a2, a3, a4, gamma_ratio, ln_temperature, tau_c, correlation };
+
+struct Quantity {
+  Measure measure = Measure::a2;
+  // The window of tau, both ends included: a2, a3 and a4 are means of its samples, gamma_ratio is
+  // ln(T(from) / T(to)) / (2 gamma_0 (to - from)). The others belong to `to`, tau_c to none.
+  double from = 0, to = 0;
+  double r = 0;  // of correlation: G_parallel at this distance [sigma]
+
+  bool operator==(const Quantity&) const = default;
+};
+
+// Over a usual window: of the plateau of a2, a3 and a4, which needs no tau; of 2 to either side of
+// tau for gamma_ratio; at tau for the others, G_parallel at 5 sigma. tau_c needs none.
+Quantity usual_quantity(Measure measure, double tau = 0);
+Quantity quantity_of(const schema::Target& target);
+bool is_laguerre(Measure measure);  // a2, a3, a4
+
+std::string name(Measure measure);  // a word for tables: "ln_temperature"
+std::optional<Measure> measure_named(const std::string& name);
+std::string describe(const Quantity& quantity);  // "a2, tau 5 to 15"
+// A number with the digits that its error leaves it, two of those that are uncertain.
+std::string value_text(double value, double error);
+Quantity middle_half(const Quantity& quantity);  // of its window
+
+// Its value in one realization, of which only every so manieth sample is looked at; nothing if the
+// run did not reach or measure it.
+std::optional<double> value_of(const Quantity& quantity, const schema::Job& job, const Pilot& pilot,
+                               std::size_t every = 1);
+
+// A profile at x, on the straight line between the points beside it; nothing beyond its ends.
+std::optional<double> value_at(const schema::Profile& profile, double x);
+
+// The error of that value from this realization alone. A window of some correlation times cannot
+// tell its own error: blocks over all the run from the window on tell the correlation time t, and
+//   error^2 = 2 s^2 t / W [1 - (1 - exp(-W/t)) t/W],   W the window, s the samples' deviation,
+// that of correlations which fall exponentially, is the window's. A drift after the window makes it
+// larger. Nothing where blocks make no sense, or the run is too short for eight of them, each of
+// eight correlation times: of a2 in tau some 120.
+struct OneRunError {
+  double standard_error = 0;
+  double correlation_time = 0;  // [tau]
+};
+std::optional<OneRunError> error_within(const Quantity& quantity, const schema::Job& job,
+                                        const Pilot& pilot);
+
+// Half the 95 % interval of the mean of a series that was run until a target was met: the scatter
+// of the target's pilot runs alone decides (analysis/accuracy.hpp says why). Nothing until each of
+// them has a value.
+std::optional<double> half_interval(const schema::Target& target, const PilotSeries& series);
+
+// CPU time of one realization run as far as the quantity needs, its equilibration included and
+// cooling in proportion to tau. [s]
+double cpu_seconds(const Quantity& quantity, const Pilot& pilot);
+
+}  // namespace haff::campaign

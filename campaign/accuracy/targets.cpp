@@ -1,0 +1,303 @@
+#include "campaign/accuracy/targets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "analysis/accuracy.hpp"
+#include "campaign/accuracy/quantity.hpp"
+#include "campaign/base/duration.hpp"
+#include "campaign/base/job_text.hpp"
+#include "campaign/base/number_text.hpp"
+#include "campaign/base/text_table.hpp"
+#include "campaign/planning/forecast.hpp"
+#include "campaign/results/pilots.hpp"
+
+namespace haff::campaign {
+namespace {
+
+using analysis::Estimate;
+
+// The jobs of one series.
+struct Runs {
+  std::vector<schema::JobRow> rows;
+  std::size_t open = 0;  // pending or running
+  double to_come = 0;    // CPU time of these, with equilibrations
+};
+
+bool is_open(const schema::JobRow& row) {
+  return row.status == schema::Status::pending || row.status == schema::Status::running;
+}
+
+double cpu_seconds_to_come(const schema::JobRow& row) {
+  if (!is_open(row)) return 0;
+  return row.expected_cpu_seconds.value_or(0) * std::max(0.0, 1 - row.progress.tau / row.tau_max);
+}
+
+std::map<std::string, Runs> runs_by_series(const schema::Reader& store) {
+  std::map<std::string, Runs> all;
+  std::map<std::int64_t, double> before;  // of equilibrations, which come first in tables
+  for (schema::JobRow& row : store.jobs()) {
+    if (row.job.kind != schema::Kind::cooling) {
+      before[row.job_id] = cpu_seconds_to_come(row);
+      continue;
+    }
+    Runs& runs = all[schema::series_identity(row.job)];
+    if (is_open(row)) {
+      ++runs.open;
+      runs.to_come += before[*row.equilibration_id] + cpu_seconds_to_come(row);
+    }
+    runs.rows.push_back(std::move(row));
+  }
+  return all;
+}
+
+double spent_cpu_seconds(const PilotSeries& series) {
+  double sum = 0;
+  for (const Pilot& pilot : series.pilots)
+    sum += pilot.cpu_seconds + pilot.equilibration_cpu_seconds;
+  return sum;
+}
+
+double mean_cpu_seconds(const PilotSeries& series) {
+  return spent_cpu_seconds(series) / static_cast<double>(series.pilots.size());
+}
+
+// What the finished realizations say of a target.
+struct Values {
+  std::vector<double> all;
+  std::size_t without = 0;  // realizations that have no such value
+};
+
+Values values_of(const schema::Target& target, const PilotSeries& series) {
+  Values values;
+  for (const Pilot& pilot : series.pilots) {
+    const auto value = value_of(quantity_of(target), series.job, pilot);
+    if (!value) {
+      ++values.without;
+      continue;
+    }
+    values.all.push_back(*value);
+  }
+  return values;
+}
+
+std::string reason_for(const schema::Target& target, const Values& values,
+                       const PilotSeries& series) {
+  if (values.without == 0) return "a pilot run did not end as done";
+  return fmt::format("{} of {} runs have no {}{}", values.without, series.pilots.size(),
+                     target.quantity, target.quantity == "tau_c" ? ": plan a larger tau_max" : "");
+}
+
+void judge(TargetProgress& progress, const Runs& runs, const PilotSeries& series) {
+  const schema::Target& target = progress.target;
+  const Values values = values_of(target, series);
+  progress.pending_cpu_seconds = runs.to_come;
+  progress.spent_cpu_seconds = spent_cpu_seconds(series);
+  if (!values.all.empty()) progress.estimate = analysis::estimate(values.all);
+  if (values.all.size() >= 2) {
+    const double deviation = analysis::standard_deviation(progress.estimate);
+    progress.expected = std::max(
+        {analysis::realizations_needed(deviation, target.se), runs.rows.size(), values.all.size()});
+    progress.cpu_seconds =
+        mean_cpu_seconds(series) * static_cast<double>(progress.expected - runs.rows.size());
+  }
+  progress.half_interval = half_interval(target, series);
+  const bool pilots_done = progress.half_interval.has_value();
+  const bool lies_ahead =
+      values.all.size() == target.pilots.size() || progress.expected > values.all.size();
+  if (pilots_done && lies_ahead)
+    progress.forecast = {progress.expected,
+                         mean_cpu_seconds(series) * static_cast<double>(progress.expected)};
+  if (runs.open > 0) return;  // waiting
+
+  if (!pilots_done || values.without > 0) {
+    progress.verdict = Verdict::unreachable;
+    progress.reason = reason_for(target, values, series);
+    progress.cpu_seconds = 0;
+    progress.forecast = std::nullopt;
+    return;
+  }
+  progress.next = analysis::next_realizations(progress.estimate, target.se);
+  progress.verdict = progress.next > values.all.size() ? Verdict::short_of : Verdict::met;
+  if (progress.verdict == Verdict::met) progress.cpu_seconds = 0;
+}
+
+std::string verdict_text(const TargetProgress& progress) {
+  const std::string text = name(progress.verdict);
+  return progress.reason.empty() ? text : text + ": " + progress.reason;
+}
+
+// How many realizations there will be is not known before the pilot runs are done.
+std::string to_come_text(const TargetProgress& progress) {
+  const double seconds = progress.cpu_seconds_to_come();
+  if (seconds <= 0) return no_value;
+  return progress.expected > 0 ? duration_text(seconds) : "> " + duration_text(seconds);
+}
+
+// A realization and, unless it is there, its equilibration.
+std::vector<schema::Planned> realization(const schema::JobRow& like, std::uint64_t seed,
+                                         const schema::Reader& store, Forecast& forecast) {
+  schema::Job job = like.job;
+  job.seed = seed;
+  std::vector<schema::Planned> plan{
+      {.job = schema::equilibration_of(job),
+       .tau_max = job.equilibrate,
+       .checkpoint_every = like.checkpoint_every},
+      {.job = job, .tau_max = like.tau_max, .checkpoint_every = like.checkpoint_every}};
+  if (store.find(plan.front().job)) plan.erase(plan.begin());
+  for (schema::Planned& each : plan) each.expected_cpu_seconds = forecast.cpu_seconds(each);
+  return plan;
+}
+
+}  // namespace
+
+std::string name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::waiting:
+      return "waits for runs";
+    case Verdict::short_of:
+      return "not met yet";
+    case Verdict::met:
+      return "met";
+    case Verdict::unreachable:
+      return "cannot be met";
+  }
+  throw std::logic_error("unknown verdict");
+}
+
+std::string describe(const schema::Target& target) {
+  return describe(quantity_of(target));
+}
+
+std::vector<TargetProgress> progress_of(const schema::Reader& store,
+                                        const std::vector<schema::Target>& targets) {
+  if (targets.empty()) return {};
+  std::set<std::string> wanted;
+  for (const schema::Target& target : targets) wanted.insert(target.series);
+  const auto runs = runs_by_series(store);
+  std::map<std::string, PilotSeries> finished;
+  for (PilotSeries& series : read_pilots(store, wanted))
+    finished.emplace(schema::series_identity(series.job), std::move(series));
+
+  std::vector<TargetProgress> all;
+  for (const schema::Target& target : targets) {
+    const auto found = runs.find(target.series);
+    if (found == runs.end()) continue;  // only tried out: nothing is planned of it
+    TargetProgress progress{.target = target, .job = found->second.rows.front().job};
+    progress.planned = found->second.rows.size();
+    const auto pilots = finished.find(target.series);
+    judge(
+        progress, found->second,
+        pilots != finished.end() ? pilots->second : PilotSeries{.job = progress.job, .pilots = {}});
+    all.push_back(std::move(progress));
+  }
+  return all;
+}
+
+std::vector<TargetProgress> progress_of(const std::vector<schema::Planned>& plan,
+                                        const std::vector<schema::Target>& targets) {
+  std::map<std::string, std::pair<const schema::Job*, Runs>> runs;
+  std::map<std::string, double> equilibrations;
+  for (const schema::Planned& each : plan)
+    if (each.job.kind == schema::Kind::equilibration)
+      equilibrations[schema::identity(each.job)] = each.expected_cpu_seconds.value_or(0);
+  for (const schema::Planned& each : plan) {
+    if (each.job.kind == schema::Kind::equilibration) continue;
+    auto& [job, all] = runs[schema::series_identity(each.job)];
+    job = &each.job;
+    ++all.open;
+    all.to_come += each.expected_cpu_seconds.value_or(0) +
+                   equilibrations[schema::identity(schema::equilibration_of(each.job))];
+  }
+  std::vector<TargetProgress> progress;
+  for (const schema::Target& target : targets) {
+    const auto& [job, all] = runs.at(target.series);
+    progress.push_back(
+        {.target = target, .job = *job, .planned = all.open, .pending_cpu_seconds = all.to_come});
+  }
+  return progress;
+}
+
+void keep_predictions(schema::Store& store) {
+  for (const TargetProgress& each : progress_of(store, store.targets()))
+    if (each.forecast && !each.target.prediction) store.predict(each.target, *each.forecast);
+}
+
+double cpu_seconds_unplanned(const std::vector<TargetProgress>& targets) {
+  std::map<std::string, double> by_series;
+  for (const TargetProgress& each : targets) {
+    double& most = by_series[each.target.series];
+    most = std::max(most, each.cpu_seconds);
+  }
+  double sum = 0;
+  for (const auto& [series, seconds] : by_series) sum += seconds;
+  return sum;
+}
+
+std::string targets_table(const std::vector<TargetProgress>& targets) {
+  if (targets.empty()) return "";
+  TextTable table({{"target", Align::left},
+                   {"e"},
+                   {"n"},
+                   {"N"},
+                   {"wanted"},
+                   {"mean"},
+                   {"error"},
+                   {"95 % interval"},
+                   {"runs"},
+                   {"expected"},
+                   {"CPU time to come"},
+                   {"", Align::left}});
+  for (const TargetProgress& each : targets) {
+    const Estimate& estimate = each.estimate;
+    table.add({describe(quantity_of(each.target)), e_text(each.job), number_text(each.job.n),
+               count_text(each.job.particles), fmt::format("{:.1e}", each.target.se),
+               estimate.count > 0 ? value_text(estimate.mean, estimate.standard_error) : no_value,
+               estimate.count > 1 ? fmt::format("{:.1e}", estimate.standard_error) : no_value,
+               each.half_interval ? fmt::format("± {:.1e}", *each.half_interval) : no_value,
+               count_text(static_cast<long long>(estimate.count)),
+               each.expected > 0 ? count_text(static_cast<long long>(each.expected)) : no_value,
+               to_come_text(each), verdict_text(each)});
+  }
+  return table.text();
+}
+
+int add_realizations(schema::Store& store, std::optional<double> affordable) {
+  // Targets of one series are served by the same realizations.
+  std::map<std::string, std::size_t> missing;
+  for (const TargetProgress& each : progress_of(store, store.targets()))
+    if (each.verdict == Verdict::short_of) {
+      std::size_t& most = missing[each.target.series];
+      most = std::max(most, each.next - each.estimate.count);
+    }
+  if (missing.empty()) return 0;
+
+  const auto runs = runs_by_series(store);
+  Forecast forecast(store.jobs());
+  int added = 0;
+  for (const auto& [series, count] : missing) {
+    const auto& rows = runs.at(series).rows;
+    std::set<std::uint64_t> taken;
+    for (const schema::JobRow& row : rows) taken.insert(row.job.seed);
+    std::uint64_t seed = 1;
+    for (std::size_t k = 0; k < count; ++k) {
+      while (taken.contains(seed)) ++seed;
+      taken.insert(seed);
+      const auto plan = realization(rows.front(), seed, store, forecast);
+      if (affordable) {
+        for (const schema::Planned& each : plan) *affordable -= *each.expected_cpu_seconds;
+        if (*affordable < 0) return added;
+      }
+      store.add(plan);
+      ++added;
+    }
+  }
+  return added;
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,34 @@
+// Aligned tables for people: a head, rows, columns as wide as they need.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace haff::campaign {
+
+enum class Align { left, right };
+
+class TextTable {
+ public:
+  struct Column {
+    std::string title;
+    Align align = Align::right;
+  };
+
+  explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+  // As many cells as there are columns.
+  void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+  bool empty() const { return rows_.empty(); }
+
+  std::string text() const;
+
+ private:
+  std::vector<Column> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+// Stands where a table has no value.
+inline constexpr const char* no_value = "-";
+
+}  // namespace haff::campaign

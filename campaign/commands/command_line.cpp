@@ -1,0 +1,281 @@
+#include "campaign/commands/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "campaign/base/command_text.hpp"
+#include "campaign/base/duration.hpp"
+#include "campaign/base/exit_code.hpp"
+#include "campaign/base/machine.hpp"
+#include "campaign/base/version.hpp"
+
+namespace haff::campaign {
+namespace {
+
+constexpr int most_workers = 1024;
+
+constexpr const char* exit_codes = R"(Exit codes:
+  0  complete
+  1  a job failed, a target cannot be met, the store is damaged or cannot be written
+  2  bad input: grid, command line or SQL
+  3  stopped by --max-time or --budget with work left
+  128 + signal  interrupted; the same command goes on)";
+
+std::string examples(const char* text) {
+  return fmt::format(
+      "Examples:\n{}\n\n--store FILE (default {}) and --verbose may stand before or after a "
+      "command.",
+      text, default_store);
+}
+
+CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
+  auto* command = app.add_subcommand("plan", "Make jobs out of a grid of (e, n, N, seed)");
+  command->add_option("GRID", options.grid, "The grid, a JSON file")->type_name("FILE")->required();
+  command->add_flag("--dry-run", options.dry_run, "Show what would be added; write nothing");
+  command->footer(examples(R"(  campaign plan grid.json
+  campaign plan grid.json --dry-run
+  campaign plan grid.json --store /data/dense.db
+
+A grid, with its defaults from "sample_every" on:
+  { "e": [0.80, 0.90], "n": 0.4, "N": 32000, "seeds": 2,
+    "tau_max": {"0.80": 90, "0.90": 180},
+    "sample_every": 1, "equilibrate": 50, "checkpoint_every": 10,
+    "observables": ["temperature", "laguerre"] }
+
+A standard error instead of a number of seeds; those given are pilot runs, `run` adds to them:
+  { "e": 0.9, "n": 0.4, "N": 8000, "seeds": 5, "tau_max": 15,
+    "target": {"a2": {"tau": [5, 15], "se": 1e-3}} })"));
+  return command;
+}
+
+CLI::App* add_run(CLI::App& app, RunOptions& options) {
+  options.workers = processors();
+  auto* command = app.add_subcommand("run", "Run all that is pending, equilibrations first");
+  command->add_option("--workers", options.workers, "Worker processes, one job each at a time")
+      ->check(CLI::Range(1, most_workers))
+      ->type_name("K")
+      ->capture_default_str();
+  const auto set_max_time = [&options](const std::string& text) {
+    options.max_seconds = seconds_from_text(text);
+    if (!options.max_seconds)
+      throw CLI::ValidationError("--max-time",
+                                 "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
+  };
+  command
+      ->add_option_function<std::string>("--max-time", set_max_time,
+                                         "Stop after this time: 90s, 45m, 1h30m")
+      ->type_name("TIME");
+  const auto set_budget = [&options](const std::string& text) {
+    options.cpu_budget = seconds_from_text(text);
+    if (!options.cpu_budget)
+      throw CLI::ValidationError("--budget",
+                                 "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
+  };
+  command
+      ->add_option_function<std::string>("--budget", set_budget,
+                                         "Spend at most this CPU time, all workers together")
+      ->type_name("TIME");
+  command->footer(examples(R"(  campaign run
+  campaign run --workers 4
+  campaign run --max-time 1h30m     exit code 3 if work is left
+  campaign run --budget 2h          of CPU time; targets not met by then: exit code 3
+  campaign run 2> run.log &         plain lines of progress in run.log
+
+Ctrl-C stores what can be stored and leaves; the same command goes on.)"));
+  return command;
+}
+
+CLI::App* add_status(CLI::App& app, StatusCommand& options) {
+  auto* command = app.add_subcommand("status", "Jobs, progress, tau_c so far, failures");
+  command->add_flag("--json", options.json, "For programs");
+  command->footer(examples(R"(  campaign status
+  campaign status --json | jq .fraction_done
+  watch campaign status             while a run is on)"));
+  return command;
+}
+
+CLI::App* add_query(CLI::App& app, QueryCommand& options) {
+  auto* command = app.add_subcommand("query", "Ask the store one question in SQL");
+  command->add_option("SQL", options.sql, "One statement that reads")
+      ->type_name("TEXT")
+      ->required();
+  const auto set_format = [&options](const std::string& name) {
+    options.format = name == "csv" ? Format::csv : name == "json" ? Format::json : Format::table;
+  };
+  command->add_option_function<std::string>("--format", set_format, "How to print the rows")
+      ->check(CLI::IsMember({"table", "csv", "json"}))
+      ->type_name("table|csv|json")
+      ->default_str("table");
+  command->footer(
+      examples(R"(  campaign query "SELECT e, n, particles, tau_c, tau_c_se FROM mean_tau_c"
+  campaign query "SELECT tau, a2, a2_se FROM mean_series WHERE e = 0.9" --format csv > a2.csv
+  campaign query "SELECT * FROM jobs" --format json)"));
+  return command;
+}
+
+CLI::App* add_figures(CLI::App& app, FigureRequest& options) {
+  auto* command = app.add_subcommand("figures", "Draw the paper's figures");
+  command->add_option("--out", options.out, "Folder to write to")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_option("--only", options.only, "Numbers of figures, e.g. 1,2,11")
+      ->type_name("LIST")
+      ->delimiter(',');
+  command->footer(examples(R"(  campaign figures
+  campaign figures --out paper --only 1,2,11)"));
+  return command;
+}
+
+CLI::App* add_export(CLI::App& app, ExportCommand& options) {
+  auto* command =
+      app.add_subcommand("export", "Print a job's last stored state as extended XYZ, for OVITO");
+  command->add_option("JOB", options.job_id, "The job_id, as in the table jobs")
+      ->type_name("NUMBER")
+      ->required();
+  command->footer(
+      examples(R"(  campaign query "SELECT job_id, kind, e, n, particles, seed, tau FROM jobs"
+  campaign export 3 > job-3.xyz     open it in OVITO: particles, box, velocities
+  campaign export 3 | gzip > job-3.xyz.gz
+
+What is stored is the newest checkpoint; its tau stands in the second line.)"));
+  return command;
+}
+
+CLI::App* add_cost(CLI::App& app, CostRequest& options) {
+  auto* command = app.add_subcommand("cost", "What accuracy costs in time");
+  command->add_option("--out", options.out, "Folder to write to")
+      ->type_name("DIR")
+      ->capture_default_str();
+  const auto set_target = [&options](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const auto target = target_from_text(text);
+      if (!target)
+        throw CLI::ValidationError("--target",
+                                   "'" + text +
+                                       "' is no target; expected a quantity and an error above 0, "
+                                       "e.g. a2=5e-4, over a window of tau a2@3:8=5e-4, at one "
+                                       "tau gamma_ratio@20=1e-3; quantities: a2, a3, a4, "
+                                       "gamma_ratio, ln_temperature, tau_c, G_parallel");
+      options.targets.push_back(*target);
+    }
+  };
+  command
+      ->add_option_function<std::vector<std::string>>("--target", set_target,
+                                                      "The error to advise on, e.g. a2=5e-4; of "
+                                                      "other tau than usual a2@3:8=5e-4")
+      ->type_name("QUANTITY[@TAU]=ERROR")
+      ->delimiter(',');
+  command->footer(examples(R"(  campaign cost
+  campaign cost --target a2=5e-4,tau_c=0.5
+  campaign cost --target a2@3:8=5e-4,gamma_ratio@20=1e-3,ln_temperature@50=0.01
+  campaign cost --out accuracy
+
+TAU is a window FROM:TO (a2, a3, a4, gamma_ratio), or one tau (gamma_ratio: 2 to either side,
+ln_temperature, G_parallel). Quantities that a grid has a "target" for are in the table too.
+
+Exit code 1 if no cooling run is done: it then says what to plan.)"));
+  return command;
+}
+
+CLI::App* add_verify(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("verify", "Check the store: SQLite, checkpoints, physics, completeness");
+  command->footer(examples("  campaign verify && echo sound"));
+  return command;
+}
+
+CLI::App* add_retry(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("retry", "Reopen failed jobs and those with a damaged checkpoint");
+  command->footer(examples("  campaign retry && campaign run"));
+  return command;
+}
+
+CLI::App* add_worker(CLI::App& app, WorkerCommand& options) {
+  auto* command = app.add_subcommand("worker", "")->group("");  // not shown
+  command->add_option("DESCRIPTOR", options.report_descriptor)->required();
+  return command;
+}
+
+std::string names(const CLI::App& app) {
+  std::string list;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (!command->get_group().empty()) list += (list.empty() ? "" : ", ") + command->get_name();
+  return list;
+}
+
+std::string complaint(const CLI::App* app, const CLI::Error& error) {
+  std::string name = "campaign";
+  const auto commands = app->get_subcommands();
+  if (!commands.empty()) name += ' ' + commands.front()->get_name();
+  return fmt::format("campaign: {}\nSee: {} --help\n", error.what(), name);
+}
+
+}  // namespace
+
+Parsed parse_command_line(int argc, const char* const* argv) {
+  CLI::App app(
+      "Campaigns of event-driven simulations of the freely cooling gas of inelastic hard spheres.");
+  app.name("campaign");
+  app.set_version_flag("--version", version_text(), "Print version, commit, compiler and SIMD");
+  app.require_subcommand(0, 1);
+  app.fallthrough();
+  app.failure_message(complaint);
+  app.footer(examples(R"(  campaign plan examples/first.json   make jobs out of a grid
+  campaign run                        run them, on all processors
+  campaign status                     see how far they are
+  campaign figures                    draw the paper's figures
+  campaign run --help                 more about one command)") +
+             "\n\n" + exit_codes);
+
+  CommandLine line;
+  std::string store = default_store;
+  app.add_option("--store", store, "The SQLite file of the campaign")
+      ->type_name("FILE")
+      ->capture_default_str();
+  app.add_flag("--verbose", line.verbose, "Log more to stderr");
+
+  PlanOptions plan;
+  RunOptions run;
+  StatusCommand status;
+  QueryCommand query;
+  FigureRequest figures;
+  ExportCommand exported;
+  CostRequest cost;
+  WorkerCommand worker;
+  const CLI::App* plan_command = add_plan(app, plan);
+  const CLI::App* run_command = add_run(app, run);
+  const CLI::App* status_command = add_status(app, status);
+  const CLI::App* query_command = add_query(app, query);
+  const CLI::App* figures_command = add_figures(app, figures);
+  const CLI::App* export_command = add_export(app, exported);
+  const CLI::App* cost_command = add_cost(app, cost);
+  const CLI::App* verify_command = add_verify(app);
+  const CLI::App* retry_command = add_retry(app);
+  const CLI::App* worker_command = add_worker(app, worker);
+
+  try {
+    app.parse(argc, argv);
+    if (app.get_subcommands().empty())
+      throw CLI::RequiredError("no command; expected one of " + names(app),
+                               CLI::ExitCodes::RequiredError);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_complete : exit_bad_input;
+  }
+
+  line.store = plan.store = run.store = store;
+  if (plan_command->parsed()) line.command = plan;
+  if (run_command->parsed()) line.command = run;
+  if (status_command->parsed()) line.command = status;
+  if (query_command->parsed()) line.command = query;
+  if (figures_command->parsed()) line.command = figures;
+  if (export_command->parsed()) line.command = exported;
+  if (cost_command->parsed()) line.command = cost;
+  if (verify_command->parsed()) line.command = VerifyCommand{};
+  if (retry_command->parsed()) line.command = RetryCommand{};
+  if (worker_command->parsed()) line.command = worker;
+  return line;
+}
+
+}  // namespace haff::campaign

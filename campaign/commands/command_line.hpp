@@ -1,0 +1,48 @@
+// The command line: what was asked for, and with what.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "campaign/accuracy/cost.hpp"
+#include "campaign/commands/plan.hpp"
+#include "campaign/commands/query.hpp"
+#include "campaign/commands/run.hpp"
+#include "campaign/paper/figures.hpp"
+
+namespace haff::campaign {
+
+struct StatusCommand {
+  bool json = false;
+};
+struct QueryCommand {
+  std::string sql;
+  Format format = Format::table;
+};
+struct ExportCommand {
+  std::int64_t job_id = 0;
+};
+struct VerifyCommand {};
+struct RetryCommand {};
+struct WorkerCommand {  // what `run` starts; not for people
+  int report_descriptor = 0;
+};
+
+using Command =
+    std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest, CostRequest,
+                 ExportCommand, VerifyCommand, RetryCommand, WorkerCommand>;
+
+struct CommandLine {
+  std::filesystem::path store;
+  bool verbose = false;
+  Command command;
+};
+
+// The exit code if there is nothing more to do: help or version printed, or an error reported.
+using Parsed = std::variant<CommandLine, int>;
+Parsed parse_command_line(int argc, const char* const* argv);
+
+}  // namespace haff::campaign

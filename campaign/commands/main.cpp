@@ -1,0 +1,78 @@
+// The program `campaign`. Results go to stdout; progress and logs to stderr.
+#include <exception>
+#include <iostream>
+
+#include "campaign/accuracy/cost.hpp"
+#include "campaign/base/exit_code.hpp"
+#include "campaign/base/log.hpp"
+#include "campaign/commands/command_line.hpp"
+#include "campaign/commands/export.hpp"
+#include "campaign/commands/plan.hpp"
+#include "campaign/commands/query.hpp"
+#include "campaign/commands/retry.hpp"
+#include "campaign/commands/run.hpp"
+#include "campaign/commands/status.hpp"
+#include "campaign/commands/verify.hpp"
+#include "campaign/paper/figures.hpp"
+#include "campaign/run/worker.hpp"
+#include "schema/error.hpp"
+#include "schema/grid.hpp"
+
+using namespace haff;
+using namespace haff::campaign;
+
+namespace {
+
+struct Perform {
+  const CommandLine& line;
+
+  int operator()(const PlanOptions& options) const { return plan(options); }
+  int operator()(const RunOptions& options) const { return run(options); }
+  int operator()(const StatusCommand& command) const { return status(line.store, command.json); }
+  int operator()(const QueryCommand& command) const {
+    return query(line.store, command.sql, command.format);
+  }
+  int operator()(const FigureRequest& request) const {
+    return draw_figures(schema::Reader(line.store), request, std::cout);
+  }
+  int operator()(const ExportCommand& command) const {
+    return export_state(line.store, command.job_id, std::cout);
+  }
+  int operator()(const CostRequest& request) const {
+    return cost(schema::Reader(line.store), request, std::cout);
+  }
+  int operator()(const VerifyCommand&) const { return verify(line.store); }
+  int operator()(const RetryCommand&) const { return retry(line.store); }
+  int operator()(const WorkerCommand& command) const {
+    return work(line.store, command.report_descriptor);
+  }
+};
+
+int complain(const std::exception& error, int exit_code) {
+  std::cout.flush();
+  std::cerr << "campaign: " << error.what() << '\n';
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Parsed parsed = parse_command_line(argc, argv);
+  if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
+  const auto& line = std::get<CommandLine>(parsed);
+  set_up_log(line.verbose);
+  return std::visit(Perform{line}, line.command);
+} catch (const schema::GridError& error) {
+  return complain(error, exit_bad_input);
+} catch (const schema::DiskError& error) {
+  return complain(error, exit_failed);
+} catch (const schema::Damage& error) {
+  return complain(error, exit_failed);
+} catch (const schema::StoreError& error) {
+  // No store, not a store, not SQL: something else was named or typed than meant.
+  return complain(error, exit_bad_input);
+} catch (const UnknownFigure& error) {
+  return complain(error, exit_bad_input);
+} catch (const std::exception& error) {
+  return complain(error, exit_failed);
+}

@@ -1,0 +1,177 @@
+#include "campaign/commands/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "campaign/accuracy/targets.hpp"
+#include "campaign/base/command_text.hpp"
+#include "campaign/base/duration.hpp"
+#include "campaign/base/exit_code.hpp"
+#include "campaign/base/job_text.hpp"
+#include "campaign/base/machine.hpp"
+#include "campaign/base/number_text.hpp"
+#include "campaign/base/text_table.hpp"
+#include "campaign/planning/expansion.hpp"
+#include "campaign/planning/forecast.hpp"
+#include "schema/grid.hpp"
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+namespace {
+
+using schema::Outcome;
+using schema::Planned;
+
+// Jobs of one line of the table.
+struct Group {
+  std::map<Outcome, int> outcomes;
+  int jobs = 0;
+  double cpu_seconds = 0;
+  double disk_bytes = 0;
+};
+
+// Equilibrations first, then by d, e, n, N.
+using GroupKey =
+    std::tuple<schema::Kind, int, std::optional<double>, double, std::uint32_t, double>;
+
+GroupKey group_of(const Planned& plan) {
+  return {plan.job.kind, plan.job.d, plan.job.e, plan.job.n, plan.job.particles, plan.tau_max};
+}
+
+void expect(std::vector<Planned>& jobs, Forecast& forecast) {
+  for (Planned& job : jobs) job.expected_cpu_seconds = forecast.cpu_seconds(job);
+}
+
+std::string counts_text(const std::map<Outcome, int>& outcomes, bool dry_run) {
+  const auto count = [&](Outcome outcome) {
+    const auto found = outcomes.find(outcome);
+    return found == outcomes.end() ? 0 : found->second;
+  };
+  const int added = count(Outcome::added);
+  const int extended = count(Outcome::extended);
+  if (added == 0 && extended == 0)
+    return dry_run ? "nothing would be added, all are in the store"
+                   : "nothing was added, all are in the store";
+  std::string text = fmt::format("{} {}", added, dry_run ? "would be added" : "added");
+  if (extended > 0) text += fmt::format(", {} extended to a larger tau_max", extended);
+  if (const int there = count(Outcome::unchanged)) text += fmt::format(", {} already there", there);
+  return text;
+}
+
+void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcomes,
+           Forecast& forecast, bool dry_run) {
+  std::map<GroupKey, Group> groups;
+  std::map<Outcome, int> all;
+  double cpu_seconds = 0;
+  double memory = 0;
+  double disk = 0;
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    const double expected = jobs[k].expected_cpu_seconds.value_or(0);
+    Group& group = groups[group_of(jobs[k])];
+    ++group.jobs;
+    ++group.outcomes[outcomes[k]];
+    group.cpu_seconds += expected;
+    group.disk_bytes += forecast.disk_bytes(jobs[k]);
+    ++all[outcomes[k]];
+    cpu_seconds += expected;
+    memory = std::max(memory, forecast.memory_bytes(jobs[k].job));
+    disk += forecast.disk_bytes(jobs[k]);
+  }
+
+  TextTable table({{"kind", Align::left},
+                   {"d"},
+                   {"e"},
+                   {"n"},
+                   {"N"},
+                   {"tau_max"},
+                   {"jobs"},
+                   {"new"},
+                   {"extended"},
+                   {"CPU time"},
+                   {"disk"}});
+  for (auto& [key, group] : groups) {
+    const auto& [kind, d, e, n, particles, tau_max] = key;
+    table.add({std::string(name(kind)), count_text(d), e ? number_text(*e) : no_value,
+               number_text(n), count_text(particles), number_text(tau_max), count_text(group.jobs),
+               count_text(group.outcomes[Outcome::added]),
+               count_text(group.outcomes[Outcome::extended]), duration_text(group.cpu_seconds),
+               bytes_text(group.disk_bytes)});
+  }
+  fmt::print("{}\n", table.text());
+  fmt::print("{} jobs: {}.\n", jobs.size(), counts_text(all, dry_run));
+  fmt::print("Expected in all: {} of CPU time ({}), {} of memory for each worker, {} on disk.\n",
+             duration_text(cpu_seconds), forecast.source(), bytes_text(memory), bytes_text(disk));
+}
+
+// What the targets will take beyond the jobs above, as far as runs that are done tell.
+void print_targets(const std::vector<TargetProgress>& targets) {
+  if (targets.empty()) return;
+  fmt::print("\n{}\n", targets_table(targets));
+  if (const double more = cpu_seconds_unplanned(targets); more > 0)
+    fmt::print("Beyond the jobs above, targets will take some {} of CPU time.\n",
+               duration_text(more));
+  const auto unknown = std::ranges::find(targets, 0U, &TargetProgress::expected);
+  if (unknown != targets.end())
+    fmt::print(
+        "A target's pilot runs, the {} seeds of the grid, come first. They tell how many "
+        "realizations it takes:\nplan again once they are done, or look at `status`; `run` adds "
+        "the others by itself.\n",
+        unknown->target.pilots.size());
+}
+
+// Those the store does not have yet as they will be.
+std::vector<TargetProgress> preview(const schema::Reader& store, const std::vector<Planned>& jobs,
+                                    const std::vector<schema::Target>& targets) {
+  std::vector<TargetProgress> all;
+  for (TargetProgress& planned : progress_of(jobs, targets)) {
+    std::vector<TargetProgress> there = progress_of(store, {planned.target});
+    all.push_back(std::move(there.empty() ? planned : there.front()));
+  }
+  return all;
+}
+
+void print_next(const PlanOptions& options) {
+  if (options.dry_run)
+    fmt::print("Nothing was written. Next: {}\n",
+               command_text(fmt::format("plan {}", options.grid.string()), options.store));
+  else
+    fmt::print("Next: {}\n", command_text("run", options.store));
+}
+
+}  // namespace
+
+int plan(const PlanOptions& options) {
+  const schema::Grid grid = schema::read_grid(options.grid, machine_memory());
+  std::vector<Planned> jobs = expand(grid);
+  const std::vector<schema::Target> targets = targets_of(grid);
+  if (!options.dry_run) {
+    schema::Store store = schema::Store::create(options.store);
+    Forecast forecast(store.jobs());
+    expect(jobs, forecast);
+    const std::vector<Outcome> outcomes = store.add(jobs);
+    store.add(targets);
+    keep_predictions(store);
+    print(jobs, outcomes, forecast, false);
+    print_targets(progress_of(store, targets));
+  } else if (std::filesystem::exists(options.store)) {
+    const schema::Reader store(options.store);
+    Forecast forecast(store.jobs());
+    expect(jobs, forecast);
+    print(jobs, store.preview(jobs), forecast, true);
+    print_targets(preview(store, jobs, targets));
+  } else {
+    Forecast forecast({});
+    expect(jobs, forecast);
+    print(jobs, std::vector(jobs.size(), Outcome::added), forecast, true);
+    print_targets(progress_of(jobs, targets));
+  }
+  print_next(options);
+  return exit_complete;
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,173 @@
+#include "campaign/job/attempt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "campaign/base/cpu_time.hpp"
+#include "campaign/base/job_text.hpp"
+#include "campaign/base/signals.hpp"
+#include "campaign/state/checkpoint.hpp"
+#include "campaign/state/model.hpp"
+#include "campaign/state/restore.hpp"
+#include "engine/soundness.hpp"
+
+namespace haff::campaign {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Some 10 ms of a gas in cache, 100 ms of a large and clustered one. [pair collisions]
+constexpr std::int64_t stretch = 20'000;
+
+constexpr auto tell_every = 200ms;  // progress bars
+constexpr auto renew_every = 5s;    // the lease, and tau as `campaign status` shows it
+
+// Who is asked to stop may go on as far as this to keep the work since the last checkpoint. [s]
+constexpr double patience = 1.0;
+
+}  // namespace
+
+Attempt::Attempt(schema::Store& store, const schema::Claim& claim, const Reporter& reporter)
+    : store_(store), claim_(claim), reporter_(reporter), cpu_at_start_(cpu_seconds()) {}
+
+std::optional<engine::State> Attempt::stored_state() const {
+  return newest_state(store_, claim_.lease.job_id, job());
+}
+
+engine::State Attempt::state_of_equilibration() const {
+  const std::int64_t id = claim_.equilibration_id.value();
+  auto state = newest_state(store_, id, store_.job(id).job);
+  if (!state)
+    throw std::runtime_error(
+        fmt::format("the equilibration it starts from, job {}, is done but "
+                    "its state is gone; `campaign retry` computes it again",
+                    id));
+  return *std::move(state);
+}
+
+void Attempt::begin(const engine::State& state) {
+  samples_.clear();
+  if (state.collisions > 0) samples_ = store_.samples(claim_.lease.job_id);
+  // What was sampled after this state will come out again, and is compared then.
+  std::erase_if(samples_, [&](const schema::Sample& sample) {
+    return engine::collisions_at(sample.tau, job().particles) > state.collisions;
+  });
+  committed_ = samples_.size();
+  views_ = {};
+  gas_.emplace(model_of(job()), state);
+  speed_from_ = gas_->collisions();
+  speed_since_ = renewed_ = Clock::now();
+  tell();
+}
+
+bool Attempt::advance_to(std::int64_t collisions) {
+  while (gas_->collisions() < collisions) {
+    gas_->run_to(std::min(collisions, gas_->collisions() + stretch));
+    tell();
+    if (is_asked_to_leave() && !is_near_synchronization()) return false;
+  }
+  return true;
+}
+
+void Attempt::sample(double tau) {
+  const auto previous =
+      samples_.empty() ? std::nullopt : std::optional<schema::Sample>(samples_.back());
+  schema::Sample sample = measure(*gas_, job(), tau, previous);
+  const Views taken = view(*gas_, job(), sample);
+  samples_.push_back(sample);
+  views_.profiles.insert(views_.profiles.end(), taken.profiles.begin(), taken.profiles.end());
+  views_.fields.insert(views_.fields.end(), taken.fields.begin(), taken.fields.end());
+}
+
+void Attempt::commit(double tau) {
+  schema::Commit commit = news(tau);
+  commit.checkpoint = checkpoint(tau);
+  store_.commit(claim_.lease, commit);
+  committed_ = samples_.size();
+  views_ = {};
+}
+
+bool Attempt::is_asked_to_leave() const {
+  return stop_signal() != 0;
+}
+
+Ending Attempt::leave() {
+  store_.release(claim_.lease);
+  return Ending::left;
+}
+
+Ending Attempt::finish(std::optional<double> synchronization_tau,
+                       const std::optional<schema::Results>& results) {
+  schema::Commit last = news(synchronization_tau.value_or(claim_.tau_max));
+  if (synchronization_tau) last.checkpoint = checkpoint(*synchronization_tau);
+  store_.finish(claim_.lease, last, results, claim_.tau_max);
+  return Ending::finished;
+}
+
+Ending Attempt::collapse(const std::string& what) {
+  store_.collapse(claim_.lease, news(tau()), what);
+  return Ending::collapsed;
+}
+
+std::string Attempt::place() const {
+  if (!gas_) return fmt::format("seed {}, before the first collision", job().seed);
+  return fmt::format("seed {}, tau {:.6g}, {} collisions", job().seed, tau(), gas_->collisions());
+}
+
+void Attempt::tell() {
+  const auto now = Clock::now();
+  if (now - told_ >= tell_every) {
+    told_ = now;
+    reporter_.send(ProgressReport{claim_.lease.job_id, describe(job()), tau(), claim_.tau_max,
+                                  collisions_per_second()});
+  }
+  if (now - renewed_ >= renew_every) {
+    renewed_ = now;
+    store_.progress(claim_.lease, progress(tau()));
+  }
+}
+
+bool Attempt::is_near_synchronization() const {
+  const double period = engine::synchronization_period;
+  const double left = period - std::fmod(tau(), period);
+  return left * job().particles / 2 < patience * collisions_per_second();
+}
+
+double Attempt::collisions_per_second() const {
+  const std::chrono::duration<double> elapsed = Clock::now() - speed_since_;
+  const auto collisions = static_cast<double>(gas_->collisions() - speed_from_);
+  return elapsed.count() > 0 ? collisions / elapsed.count() : 0;
+}
+
+double Attempt::tau() const {
+  return 2 * static_cast<double>(gas_->collisions()) / job().particles;
+}
+
+schema::Progress Attempt::progress(double tau) const {
+  return {.tau = tau,
+          .collisions = gas_->collisions(),
+          .cpu_seconds = claim_.cpu_seconds + cpu_seconds() - cpu_at_start_};
+}
+
+schema::Commit Attempt::news(double tau) const {
+  const engine::Invariants seen = gas_->invariants();
+  return {.samples = {samples_.begin() + static_cast<std::ptrdiff_t>(committed_), samples_.end()},
+          .profiles = views_.profiles,
+          .fields = views_.fields,
+          .invariants = schema::Invariants{.largest_overlap = engine::largest_overlap(seen),
+                                           .past_events = seen.past_events,
+                                           .watchdog_trips = seen.watchdog_trips,
+                                           .energy_mismatch = seen.energy_mismatch,
+                                           .momentum_removed = seen.momentum_removed},
+          .progress = progress(tau)};
+}
+
+schema::Checkpoint Attempt::checkpoint(double tau) const {
+  return {.tau = tau, .collisions = gas_->collisions(), .state = encode(gas_->state())};
+}
+
+}  // namespace haff::campaign

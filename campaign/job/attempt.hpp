@@ -1,0 +1,81 @@
+// One attempt at a job: a claim on it, a gas, the samples not yet committed.
+//
+// cooling.cpp and equilibration.cpp say what happens in which order; how it happens is here. The
+// gas collides in short stretches. Between them the coordinator is told how far it is, the lease
+// is renewed, and a wish to stop is heard.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/job/measurement.hpp"
+#include "campaign/job/report.hpp"
+#include "engine/simulation.hpp"
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+// How an attempt can end, other than by an exception. `left`: asked to stop, given back.
+enum class Ending { finished, collapsed, left };
+
+class Attempt {
+ public:
+  Attempt(schema::Store& store, const schema::Claim& claim, const Reporter& reporter);
+
+  const schema::Job& job() const { return claim_.job; }
+  const schema::Claim& claim() const { return claim_; }
+  const std::vector<schema::Sample>& samples() const { return samples_; }
+
+  // The stored state of this job or of another, if there is one. Throws DamagedCheckpoint.
+  std::optional<engine::State> stored_state() const;
+  engine::State state_of_equilibration() const;
+
+  // Start from this state, with the samples the store has up to it.
+  void begin(const engine::State& state);
+
+  // False if asked to stop when there is no synchronization near at which to store the state.
+  [[nodiscard]] bool advance_to(std::int64_t collisions);
+
+  void sample(double tau);  // and the profiles and fields that go with it
+  void commit(double tau);  // what was measured and the state, at a synchronization
+  bool is_asked_to_leave() const;
+
+  Ending leave();
+  // The end of the job: commits what is left, the state too if the job ends at a synchronization.
+  Ending finish(std::optional<double> synchronization_tau,
+                const std::optional<schema::Results>& results);
+
+  // The end of the job in inelastic collapse: its series up to here is kept.
+  Ending collapse(const std::string& what);
+
+  // Where it is, for messages: "seed 3, tau 12.5, 100000 collisions".
+  std::string place() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void tell();
+  bool is_near_synchronization() const;
+  double collisions_per_second() const;
+  double tau() const;
+  schema::Progress progress(double tau) const;
+  // What the store does not have yet, but for the state.
+  schema::Commit news(double tau) const;
+  schema::Checkpoint checkpoint(double tau) const;
+
+  schema::Store& store_;
+  const schema::Claim& claim_;
+  const Reporter& reporter_;
+  std::optional<engine::Simulation> gas_;
+  std::vector<schema::Sample> samples_;
+  std::size_t committed_ = 0;  // of samples_, or in the store from an earlier attempt
+  Views views_;                // since the last commit
+
+  double cpu_at_start_;
+  Clock::time_point told_, renewed_, speed_since_;
+  std::int64_t speed_from_ = 0;
+};
+
+}  // namespace haff::campaign

@@ -1,0 +1,31 @@
+#include "campaign/job/cooling.hpp"
+
+#include "campaign/job/measurement.hpp"
+#include "campaign/job/timetable.hpp"
+#include "engine/initial.hpp"
+
+namespace haff::campaign {
+
+Ending cool(Attempt& attempt) {
+  Timetable timetable(attempt.job(), attempt.claim().tau_max, attempt.claim().checkpoint_every);
+  if (const auto state = attempt.stored_state()) {
+    timetable.skip_through(state->collisions);
+    attempt.begin(*state);
+  } else {
+    attempt.begin(engine::restarted(attempt.state_of_equilibration()));
+  }
+
+  while (const auto stop = timetable.next()) {
+    if (!attempt.advance_to(stop->collisions)) return attempt.leave();
+    if (stop->due == Stop::Due::sample) {
+      attempt.sample(stop->tau);
+      continue;
+    }
+    const bool leaving = attempt.is_asked_to_leave();
+    if (stop->keep || leaving) attempt.commit(stop->tau);
+    if (leaving) return attempt.leave();
+  }
+  return attempt.finish(std::nullopt, results(attempt.samples(), attempt.job()));
+}
+
+}  // namespace haff::campaign

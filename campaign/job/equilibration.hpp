@@ -1,0 +1,22 @@
+// An equilibration: an elastic gas collides until it has forgotten its lattice.
+//
+// It ends at the first synchronization at or after tau = equilibrate at which a_2, a_3 and a_4 are
+// those of equilibrium; where they are not, it goes on from synchronization to synchronization.
+#pragma once
+
+#include <stdexcept>
+
+#include "campaign/job/attempt.hpp"
+
+namespace haff::campaign {
+
+// A gas that is not in equilibrium after so many times `equilibrate` never will be.
+inline constexpr double longest_equilibration = 4;
+
+struct NotEquilibrated : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+Ending equilibrate(Attempt& attempt);
+
+}  // namespace haff::campaign

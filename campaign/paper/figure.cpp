@@ -1,0 +1,97 @@
+#include "campaign/paper/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "analysis/energy_equation.hpp"
+#include "campaign/base/number_text.hpp"
+#include "campaign/base/text_table.hpp"
+
+namespace haff::campaign {
+
+namespace {
+
+// "mean of 6 realizations (3 beyond tau = 20; 1 planned is not done)"
+std::string realizations_text(const MeanSeries& series) {
+  const std::int64_t most = series.most_realizations();
+  std::string text = most == 1 ? "one realization" : fmt::format("mean of {} realizations", most);
+  std::string rest;
+  for (std::size_t i = 1; i < series.realizations.size(); ++i) {
+    if (series.realizations[i] == series.realizations[i - 1]) continue;
+    rest += fmt::format("{}{} beyond τ = {:g}", rest.empty() ? "" : ", ", series.realizations[i],
+                        series.tau[i - 1]);
+  }
+  if (series.missing > 0) {
+    rest += fmt::format("{}{} planned not done", rest.empty() ? "" : "; ", series.missing);
+  }
+  return rest.empty() ? text : text + " (" + rest + ")";
+}
+
+}  // namespace
+
+std::string versions_text(const std::vector<MeanSeries>& series) {
+  std::set<std::string> versions;
+  for (const MeanSeries& s : series) {
+    versions.insert(s.code_versions.begin(), s.code_versions.end());
+  }
+  return versions.empty() ? "" : fmt::format(" haff {}.", fmt::join(versions, ", "));
+}
+
+std::string provenance(const std::vector<MeanSeries>& series) {
+  // One of e and n is common to all; of the other, those that share particles and realizations are
+  // named together.
+  const bool densities = series.front().n != series.back().n;
+  std::map<std::pair<std::int64_t, std::string>, std::string> groups;
+  for (const MeanSeries& s : series) {
+    std::string& list = groups[{s.particles, realizations_text(s)}];
+    list += (list.empty() ? (densities ? "n = " : "e = ") : ", ") +
+            (densities ? density_text(s.n) : restitution_text(s.e));
+  }
+  std::string text = densities ? "e = " + restitution_text(series.front().e)
+                               : "n = " + density_text(series.front().n);
+  for (const auto& [key, list] : groups) {
+    text += fmt::format("; {}: N = {}, {}", list, count_text(key.first), key.second);
+  }
+  return text + "." + versions_text(series);
+}
+
+std::string error_note(const std::vector<MeanSeries>& series) {
+  const bool any =
+      std::ranges::any_of(series, [](const MeanSeries& s) { return s.most_realizations() > 1; });
+  return any ? " Bars and bands: standard error of the mean." : "";
+}
+
+double homogeneous_stage(const MeanSeries& series) {
+  constexpr double beyond = 1.5;
+  const double crossover = analysis::energy_equation_tau_c({.e = series.e, .n = series.n});
+  return std::min(series.tau.back(), 10 * std::ceil(beyond * crossover / 10));
+}
+
+Curve until(double end, Curve curve) {
+  const auto shown = std::ranges::upper_bound(curve.x, end) - curve.x.begin();
+  const auto size = static_cast<std::size_t>(shown);
+  curve.x.resize(size);
+  curve.y.resize(size);
+  if (!curve.error.empty()) curve.error.resize(size);
+  if (!curve.realizations.empty()) curve.realizations.resize(size);
+  return curve;
+}
+
+Curve measured_curve(const MeanSeries& series) {
+  Curve curve;
+  curve.name = "e = " + restitution_text(series.e);
+  curve.legend = "{/:Italic e} = " + restitution_text(series.e);
+  curve.source = Source::measured;
+  curve.e = series.e;
+  curve.n = series.n;
+  curve.particles = series.particles;
+  curve.realizations = series.realizations;
+  return curve;
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,53 @@
+// Figure 4: how the velocity distribution leaves the Gaussian and returns, a_2, a_3, a_4 against
+// tau at e = 0.90, with tau_c marked.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "campaign/paper/figure.hpp"
+
+namespace haff::campaign {
+
+std::optional<Plot> figure_04(const Averages& averages) {
+  const auto available = choose_series(averages, base_density, &MeanSeries::a2);
+  if (available.empty()) return std::nullopt;
+  const MeanSeries& series = nearest(available, 0.90);
+  const double end = homogeneous_stage(series);
+
+  Panel panel{.x = {.label = "{/:Italic τ}", .column = "tau", .low = 0, .high = end},
+              .y = {.label = "{/:Italic a_ℓ}", .column = "coefficient"},
+              .legend = "top left horizontal"};
+  const auto add = [&](const char* name, const char* legend, const Means& means) {
+    Curve curve = measured_curve(series);
+    curve.name = name;
+    curve.legend = legend;
+    curve.x = series.tau;
+    curve.y = means.value;
+    curve.error = means.error;
+    curve.colour = colour(panel.curves.size(), 3);
+    curve.width = 1.3;
+    panel.curves.push_back(until(end, std::move(curve)));
+  };
+  add("a2", "{/:Italic a}_2", series.a2);
+  add("a3", "{/:Italic a}_3", series.a3);
+  add("a4", "{/:Italic a}_4", series.a4);
+  // Room for the legend above all curves.
+  const Range range = y_range(panel.curves);
+  panel.y.low = range.low - 0.05 * range.width();
+  panel.y.high = range.high + 0.2 * range.width();
+  panel.commands.push_back(
+      "set arrow from graph 0, first 0 to graph 1, first 0 nohead back lw 0.7 lc rgb '#888888'");
+
+  for (const MeanTauC& each : choose_tau_c(averages, base_density)) {
+    if (each.e != series.e || each.tau_c > end) continue;
+    panel.commands.push_back(fmt::format(
+        "set arrow from first {0}, graph 0 to first {0}, graph 1 nohead back lw 1 dt (4,4)",
+        each.tau_c));
+    panel.commands.push_back(
+        fmt::format("set label '{{/:Italic τ}}_c' at first {}, graph 0.94 offset character 0.6, 0",
+                    each.tau_c));
+  }
+  return Plot{.panels = {panel}, .caption = provenance({series}) + error_note({series})};
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,79 @@
+// Figure 10: velocity correlations at e = 0.80 fall on one curve for 20 <= tau <= 60 when lengths
+// are measured in sigma sqrt(tau) and G in T_0 / (m tau^(d/2)): diffusion of vorticity.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "analysis/cooling.hpp"
+#include "campaign/paper/figure.hpp"
+
+namespace haff::campaign {
+namespace {
+
+constexpr double farthest = 6;  // r / (sigma sqrt(tau)) that is shown
+
+Curve scaled(const MeanSeries& series, const MeanProfile& profile) {
+  Curve curve = measured_curve(series);
+  curve.name = fmt::format("{}, tau = {:g}", profile.name, profile.tau);
+  const double unit = std::pow(profile.tau, 1.5) / analysis::initial_temperature();
+  for (std::size_t i = 0; i < profile.x.size(); ++i) {
+    curve.x.push_back(profile.x[i] / std::sqrt(profile.tau));
+    curve.y.push_back(profile.mean.value[i] * unit);
+    curve.error.push_back(profile.mean.error[i] * unit);
+  }
+  curve.realizations.assign(curve.x.size(), profile.realizations);
+  curve.look = Look::symbols;
+  return curve;
+}
+
+}  // namespace
+
+std::vector<ScaledCorrelation> scaled_correlations(const MeanSeries& series,
+                                                   const std::string& name) {
+  std::vector<ScaledCorrelation> curves;
+  for (const MeanProfile& profile : series.profiles) {
+    if (profile.name != name || profile.tau < scaling_from || profile.tau > scaling_until) continue;
+    curves.push_back({.tau = profile.tau, .curve = scaled(series, profile)});
+    curves.back().curve.legend = fmt::format("{{/:Italic τ}} = {:g}", profile.tau);
+  }
+  for (std::size_t i = 0; i < curves.size(); ++i) curves[i].curve.colour = shade(i, curves.size());
+  return curves;
+}
+
+std::optional<Plot> figure_10(const Averages& averages) {
+  const auto available = choose_profiles(averages, base_density, "G_parallel");
+  if (available.empty()) return std::nullopt;
+  const MeanSeries& series = nearest(available, correlations_restitution);
+
+  const auto parallel = scaled_correlations(series, "G_parallel");
+  const auto perpendicular = scaled_correlations(series, "G_perpendicular");
+  if (parallel.size() < 2) return std::nullopt;
+
+  Panel panel{
+      .x = {.label = "{/:Italic r} / ({/:Italic σ} {/:Italic τ}^{ 1/2})",
+            .column = "r_scaled",
+            .low = 0,
+            .high = farthest},
+      .y = {.label = "{/:Italic G τ}^{3/2} {/:Italic m} / {/:Italic T}_0", .column = "G_scaled"}};
+  for (const auto& each : parallel) panel.curves.push_back(until(farthest, each.curve));
+  for (const auto& each : perpendicular) {
+    panel.curves.push_back(until(farthest, each.curve));
+    panel.curves.back().symbol = 6;
+    panel.curves.back().legend = "";
+  }
+  const Range range = y_range(panel.curves);
+  Curve key{.legend = "{/:Italic G}_{∥}", .look = Look::symbols};
+  panel.curves.push_back(key);
+  key.legend = "{/:Italic G}_{⊥}";
+  key.symbol = 6;
+  panel.curves.push_back(key);
+  panel.commands.push_back(
+      "set arrow from graph 0, first 0 to graph 1, first 0 nohead back lw 0.7 lc rgb '#888888'");
+  panel.y.low = range.low - 0.05 * range.width();
+  panel.y.high = range.high + 0.05 * range.width();
+  return Plot{.panels = {panel}, .caption = provenance({series}) + error_note({series})};
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,85 @@
+// Figure 11: the local decay rate gamma(tau)/gamma_0 in the early stage. It falls below one from
+// the start, as the energy equation says, and far more than Enskog-Boltzmann theory allows; of
+// that the curve shown is the one that deviates most (e = 0.865).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/energy_equation.hpp"
+#include "analysis/enskog_boltzmann.hpp"
+#include "campaign/paper/figure.hpp"
+
+namespace haff::campaign {
+namespace {
+
+constexpr double deepest_a2 = 0.865;  // e of the largest |a_2| above 0.8
+
+// The early stage: until the most dissipative gas shown has lost its homogeneity.
+double early(const std::vector<MeanSeries>& chosen) {
+  const double crossover =
+      analysis::energy_equation_tau_c({.e = chosen.front().e, .n = base_density});
+  return std::min(chosen.front().tau.back(), 10 * std::ceil(crossover / 10));
+}
+
+std::vector<double> times(double end) {
+  constexpr int points = 200;
+  std::vector<double> tau;
+  for (int i = 0; i <= points; ++i) tau.push_back(end * i / points);
+  return tau;
+}
+
+}  // namespace
+
+std::optional<Plot> figure_11(const Averages& averages) {
+  const auto chosen = choose_series(averages, base_density, &MeanSeries::gamma_ratio);
+  if (chosen.empty()) return std::nullopt;
+  const double end = early(chosen);
+
+  Panel panel{.x = {.label = "{/:Italic τ}", .column = "tau", .low = 0, .high = end},
+              .y = {.label = "{/:Italic γ} / {/:Italic γ}_0", .column = "gamma_ratio"},
+              .legend = "bottom left"};
+  for (const MeanSeries& series : chosen) {
+    Curve curve = measured_curve(series);
+    // A sample holds the mean over the interval before it: it belongs to the middle.
+    for (const double tau : series.tau) curve.x.push_back(tau - series.sample_every / 2);
+    curve.y = series.gamma_ratio.value;
+    curve.error = series.gamma_ratio.error;
+    curve = until(end, std::move(curve));
+    curve.look = Look::symbols;
+    curve.colour = colour(panel.curves.size(), chosen.size());
+    panel.curves.push_back(std::move(curve));
+  }
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    Curve curve{.name = "energy equation",
+                .legend = "",
+                .source = Source::theory,
+                .e = chosen[i].e,
+                .n = base_density};
+    curve.colour = colour(i, chosen.size());
+    for (const auto& point :
+         analysis::energy_equation({.e = chosen[i].e, .n = base_density}, times(end))) {
+      curve.x.push_back(point.tau);
+      curve.y.push_back(point.gamma_ratio);
+    }
+    panel.curves.push_back(std::move(curve));
+  }
+  panel.curves.push_back(
+      {.legend = fmt::format("energy equation, {{/:Italic b}} = {:.2f}", analysis::cutoff_b)});
+  Curve boltzmann{.name = "Enskog-Boltzmann",
+                  .legend = "Enskog–Boltzmann, {/:Italic e} = 0.865",
+                  .source = Source::theory,
+                  .e = deepest_a2};
+  boltzmann.look = Look::dashed;
+  for (const double tau : times(end)) {
+    boltzmann.x.push_back(tau);
+    boltzmann.y.push_back(analysis::boltzmann_gamma_ratio(analysis::boltzmann_a2(tau, deepest_a2)));
+  }
+  panel.curves.push_back(std::move(boltzmann));
+  const Range range = y_range(panel.curves);
+  panel.y.low = range.low - 0.04 * range.width();
+  panel.y.high = range.high + 0.04 * range.width();
+  return Plot{.panels = {panel}, .caption = provenance(chosen) + error_note(chosen)};
+}
+
+}  // namespace haff::campaign

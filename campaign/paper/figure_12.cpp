@@ -1,0 +1,87 @@
+// Figure 12: the local decay rate gamma(tau)/gamma_0 for several densities at e = 0.85. The energy
+// equation depends on n through the correlations; Enskog-Boltzmann theory does not.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "analysis/energy_equation.hpp"
+#include "analysis/enskog_boltzmann.hpp"
+#include "campaign/base/number_text.hpp"
+#include "campaign/paper/figure.hpp"
+
+namespace haff::campaign {
+namespace {
+
+constexpr double restitution = densities_restitution;
+
+std::vector<double> times(double end) {
+  constexpr int points = 200;
+  std::vector<double> tau;
+  for (int i = 0; i <= points; ++i) tau.push_back(end * i / points);
+  return tau;
+}
+
+Curve energy_equation(double n, double end) {
+  Curve curve{.name = "energy equation", .source = Source::theory, .e = restitution, .n = n};
+  for (const auto& point : analysis::energy_equation({.e = restitution, .n = n}, times(end))) {
+    curve.x.push_back(point.tau);
+    curve.y.push_back(point.gamma_ratio);
+  }
+  return curve;
+}
+
+Curve boltzmann(double end) {
+  Curve curve{.name = "Enskog-Boltzmann",
+              .legend = "Enskog–Boltzmann",
+              .source = Source::theory,
+              .e = restitution};
+  curve.look = Look::dashed;
+  for (const double tau : times(end)) {
+    curve.x.push_back(tau);
+    curve.y.push_back(analysis::boltzmann_gamma_ratio(analysis::boltzmann_a2(tau, restitution)));
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::optional<Plot> figure_12(const Averages& averages) {
+  const auto chosen = choose_densities(averages, restitution, &MeanSeries::gamma_ratio);
+  if (chosen.empty()) return std::nullopt;
+  // The early stage: until the densest gas has lost its homogeneity.
+  const double crossover =
+      analysis::energy_equation_tau_c({.e = restitution, .n = chosen.back().n});
+  const double end = std::min(chosen.back().tau.back(), 10 * std::ceil(crossover / 10));
+
+  Panel panel{.x = {.label = "{/:Italic τ}", .column = "tau", .low = 0, .high = end},
+              .y = {.label = "{/:Italic γ} / {/:Italic γ}_0", .column = "gamma_ratio"},
+              .legend = "bottom left"};
+  std::vector<Curve> theories;
+  for (const MeanSeries& series : chosen) {
+    Curve curve = measured_curve(series);
+    curve.name = "n = " + density_text(series.n);
+    curve.legend = "{/:Italic n} = " + density_text(series.n);
+    // A sample holds the mean over the interval before it: it belongs to the middle.
+    for (const double tau : series.tau) curve.x.push_back(tau - series.sample_every / 2);
+    curve.y = series.gamma_ratio.value;
+    curve.error = series.gamma_ratio.error;
+    curve = until(end, std::move(curve));
+    curve.look = Look::symbols;
+    curve.colour = shade(panel.curves.size(), chosen.size());
+    theories.push_back(energy_equation(series.n, end));
+    theories.back().colour = curve.colour;
+    panel.curves.push_back(std::move(curve));
+  }
+  panel.curves.insert(panel.curves.end(), theories.begin(), theories.end());
+  panel.curves.push_back(
+      {.legend = fmt::format("energy equation, {{/:Italic b}} = {:.2f}", analysis::cutoff_b)});
+  panel.curves.push_back(boltzmann(end));
+  const Range range = y_range(panel.curves);
+  panel.y.low = range.low - 0.04 * range.width();
+  panel.y.high = range.high + 0.04 * range.width();
+  return Plot{.panels = {panel}, .caption = provenance(chosen) + error_note(chosen)};
+}
+
+}  // namespace haff::campaign

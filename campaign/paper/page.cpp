@@ -1,0 +1,142 @@
+#include "campaign/paper/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "campaign/base/number_text.hpp"
+#include "campaign/base/version.hpp"
+#include "campaign/paper/figure.hpp"
+#include "campaign/results/published.hpp"
+
+namespace haff::campaign {
+namespace {
+
+constexpr std::string_view style = R"(
+  body { font: 16px/1.5 Arial, "Liberation Sans", sans-serif; color: #222; margin: 2rem auto;
+         max-width: 78rem; padding: 0 1.5rem; background: #fff; }
+  h1 { font-size: 1.7rem; margin-bottom: 0.2rem; }
+  h2 { font-size: 1.25rem; margin: 2.5rem 0 0.6rem; }
+  h3 { font-size: 1.05rem; margin: 0 0 0.5rem; }
+  .figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(34rem, 1fr));
+             gap: 2rem; }
+  figure { margin: 0; border: 1px solid #ddd; border-radius: 4px; padding: 1rem; }
+  figure img { width: 100%; height: auto; }
+  figcaption { font-size: 0.88rem; color: #444; }
+  .paper { color: #0072b2; }
+  .absent { color: #777; font-style: italic; }
+  .wide { overflow-x: auto; }
+  table { border-collapse: collapse; font-size: 0.88rem; }
+  th, td { text-align: left; padding: 0.25rem 0.8rem 0.25rem 0; border-bottom: 1px solid #e4e4e4;
+           vertical-align: top; }
+  td.number { text-align: right; white-space: nowrap; }
+  .yes { color: #00724f; font-weight: bold; }
+  .no { color: #b34700; font-weight: bold; }
+)";
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+// A value with as many digits as its error leaves sense to: 57.49 ± 1.14, 0.9682 ± 0.0003.
+std::string number(double value, double error = Comparison::none) {
+  if (!std::isfinite(value)) return "";
+  if (!std::isfinite(error) || error <= 0) return fmt::format("{:.4g}", value);
+  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
+  return fmt::format("{:.{}f} ± {:.{}f}", value, digits, error, digits);
+}
+
+std::string deviation(const Comparison& row) {
+  if (!std::isfinite(row.value) || !std::isfinite(row.reference) || row.reference == 0) return "";
+  std::string text = fmt::format("{:+.2f} %", 100 * (row.value / row.reference - 1));
+  if (row.error > 0) text += fmt::format(", {:+.1f} se", (row.value - row.reference) / row.error);
+  return text;
+}
+
+std::string verdict(const Comparison& row) {
+  if (!row.holds) return "<td></td>";
+  return *row.holds ? R"(<td class="yes">✓</td>)" : R"(<td class="no">✗</td>)";
+}
+
+std::string table_text(const std::vector<Comparison>& table) {
+  std::string text =
+      "<div class=\"wide\"><table>\n<tr><th>quantity</th><th>e</th><th>n</th><th>this work</th>"
+      "<th>reference</th><th>difference</th><th>held to</th><th></th><th>note</th></tr>\n";
+  for (const Comparison& row : table) {
+    const std::string reference = std::isfinite(row.reference) && row.reference != 0
+                                      ? number(row.reference) + " (" + row.source + ")"
+                                      : row.source;
+    text += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"number\">{}</td><td>{}</td>"
+        "<td class=\"number\">{}</td><td>{}</td>{}<td>{}</td></tr>\n",
+        escaped(row.quantity), row.e ? restitution_text(*row.e) : "",
+        row.n ? density_text(*row.n) : "", number(row.value, row.error), escaped(reference),
+        deviation(row), escaped(row.criterion), verdict(row), escaped(row.note));
+  }
+  return text + "</table></div>\n";
+}
+
+std::string figure_text(const FigureEntry& figure) {
+  std::string text = fmt::format("<figure id=\"figure-{0:02}\">\n<h3>Figure {0}: {1}</h3>\n",
+                                 figure.id, escaped(figure.title));
+  if (figure.picture.empty()) {
+    text += fmt::format("<p class=\"absent\">{}</p>\n", escaped(figure.caption));
+  } else {
+    text += fmt::format("<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a>\n", figure.picture,
+                        escaped(figure.title));
+  }
+  text += "<figcaption>";
+  if (!figure.picture.empty()) text += escaped(figure.caption) + "<br>\n";
+  return text + fmt::format("<span class=\"paper\">Published: {}</span></figcaption>\n</figure>\n",
+                            escaped(figure.published));
+}
+
+}  // namespace
+
+void write_page(const std::vector<FigureEntry>& figures, const std::vector<Comparison>& table,
+                const std::filesystem::path& file) {
+  std::ofstream page(file);
+  page << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+       << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+       << "<title>Free cooling of inelastic hard spheres</title>\n<style>" << style
+       << "</style>\n</head>\n<body>\n<h1>Free cooling of inelastic hard spheres</h1>\n"
+       << "<p>Figures of " << escaped(published_source) << ", drawn by haff "
+       << escaped(code_version()) << ". Lengths in diameters σ, energies in E(0), the energy per "
+       << "particle at the start; τ counts collisions suffered per particle.</p>\n";
+  if (!table.empty()) {
+    const auto judged = std::ranges::count_if(table, [](const auto& row) { return !!row.holds; });
+    const auto held =
+        std::ranges::count_if(table, [](const auto& row) { return row.holds.value_or(false); });
+    page << fmt::format("<h2>Agreement: {} of {} within their tolerance</h2>\n", held, judged)
+         << table_text(table)
+         << "<p>± is the standard error of the mean over realizations. The same table with all "
+            "digits: <a href=\"agreement.csv\">agreement.csv</a>.</p>\n";
+  }
+  page << "<h2>Figures</h2>\n<div class=\"figures\">\n";
+  for (const FigureEntry& figure : figures) page << figure_text(figure);
+  page << "</div>\n</body>\n</html>\n";
+  page.close();
+  if (!page) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+}
+
+}  // namespace haff::campaign

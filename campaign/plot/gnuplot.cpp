@@ -1,0 +1,72 @@
+#include "campaign/plot/gnuplot.hpp"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <system_error>
+
+namespace haff::campaign {
+namespace {
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Close>;
+
+// A file without a name, gone when closed: gnuplot reads its script from one and complains into
+// another, so that neither side can block the other as with pipes.
+File nameless() {
+  File file(std::tmpfile());
+  if (!file) throw std::system_error(errno, std::generic_category(), "no temporary file");
+  return file;
+}
+
+std::string contents(std::FILE* file) {
+  std::rewind(file);
+  std::string text;
+  char part[4096];
+  while (const std::size_t got = std::fread(part, 1, sizeof part, file)) text.append(part, got);
+  return text;
+}
+
+}  // namespace
+
+void run_gnuplot(const std::string& script) {
+  const File input = nameless(), output = nameless();
+  if (std::fwrite(script.data(), 1, script.size(), input.get()) != script.size() ||
+      std::fflush(input.get()) != 0) {
+    throw std::system_error(errno, std::generic_category(), "temporary file for gnuplot");
+  }
+  std::rewind(input.get());
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, fileno(input.get()), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDERR_FILENO);
+  char name[] = "gnuplot";
+  char defaults[] = "-d";  // nobody's start-up files
+  char* arguments[] = {name, defaults, nullptr};
+  pid_t child = 0;
+  const int failure = posix_spawnp(&child, name, &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failure == ENOENT) {
+    throw GnuplotMissing(
+        "gnuplot is not installed, pictures cannot be drawn: apt-get install gnuplot-nox");
+  }
+  if (failure != 0) throw std::system_error(failure, std::generic_category(), "gnuplot");
+
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    throw std::runtime_error("gnuplot failed: " + contents(output.get()));
+  }
+}
+
+}  // namespace haff::campaign

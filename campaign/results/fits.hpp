@@ -1,0 +1,20 @@
+// What is fitted to each realization by itself and then averaged: the spread over realizations is
+// an honest error, that of one fit to correlated samples is not.
+#pragma once
+
+#include <optional>
+
+#include "analysis/statistics.hpp"
+#include "campaign/results/averages.hpp"
+
+namespace haff::campaign {
+
+// The cutoff number b of the energy equation, from ln E until tau_c or the end of the series. The
+// standard error is NaN for one realization.
+std::optional<analysis::Estimate> fitted_cutoff(const MeanSeries& series);
+
+// The exponent of T ~ tau^-exponent beyond the homogeneous stage, from 2 tau_c to the end of the
+// series. Nothing unless some realization went well beyond 2 tau_c.
+std::optional<analysis::Estimate> late_exponent(const MeanSeries& series);
+
+}  // namespace haff::campaign

@@ -1,0 +1,81 @@
+#include "campaign/results/pilots.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "analysis/correlations.hpp"
+#include "analysis/velocity_correlations.hpp"
+#include "campaign/state/restore.hpp"
+
+namespace haff::campaign {
+namespace {
+
+// The last state is in the store: whatever the run measured, it can be looked at once more.
+std::optional<MeshTrial> mesh_trial(const schema::Reader& store, const schema::JobRow& row) {
+  const auto state = newest_state(store, row.job_id, row.job);
+  if (!state || !(state->box > 8 * wide_cell)) return std::nullopt;
+  const double tau = 2 * static_cast<double>(state->collisions) / state->particles();
+  const double k_max = analysis::cutoff_wavenumber(row.job.n, analysis::cutoff_b, row.job.d);
+  const auto measured = [&](double cell) {
+    auto g = analysis::velocity_correlations(state->position, state->velocity, state->box, k_max,
+                                             row.job.d, cell);
+    for (double& value : g.parallel) value = std::ldexp(value, -2 * state->exponent);
+    return schema::Profile{"G_parallel", tau, std::move(g.r), std::move(g.parallel)};
+  };
+  return MeshTrial{measured(1), measured(wide_cell)};
+}
+
+Pilot read_pilot(const schema::Reader& store, const schema::JobRow& row, double equilibration) {
+  Pilot pilot{.seed = row.job.seed,
+              .tau_max = row.tau_max,
+              .cpu_seconds = row.progress.cpu_seconds,
+              .equilibration_cpu_seconds = equilibration,
+              .samples = store.samples(row.job_id)};
+  if (const auto results = store.results(row.job_id)) pilot.tau_c = results->tau_c;
+  return pilot;
+}
+
+void read_correlations(const schema::Reader& store, const schema::JobRow& row, Pilot& pilot) {
+  if (!row.job.profiles_every) return;
+  pilot.correlations = store.profiles(row.job_id, "G_parallel");
+  if (!pilot.correlations.empty()) pilot.mesh = mesh_trial(store, row);
+}
+
+// Of the series wanted; `complete` adds to each pilot what its row leads to.
+template <class Wanted, class Complete>
+std::vector<PilotSeries> read_those(const schema::Reader& store, Wanted&& wanted,
+                                    Complete&& complete) {
+  const auto jobs = store.jobs();
+  std::map<std::int64_t, double> spent;  // by job
+  for (const schema::JobRow& row : jobs) spent[row.job_id] = row.progress.cpu_seconds;
+
+  std::vector<PilotSeries> all;
+  for (const schema::JobRow& row : jobs) {
+    if (row.job.kind != schema::Kind::cooling || row.status != schema::Status::done) continue;
+    const std::string series = schema::series_identity(row.job);
+    if (!wanted(series)) continue;
+    if (all.empty() || schema::series_identity(all.back().job) != series)
+      all.push_back({.job = row.job, .pilots = {}});
+    all.back().pilots.push_back(
+        read_pilot(store, row, row.equilibration_id ? spent[*row.equilibration_id] : 0));
+    complete(row, all.back().pilots.back());
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<PilotSeries> read_pilots(const schema::Reader& store) {
+  return read_those(
+      store, [](const std::string&) { return true; },
+      [&](const schema::JobRow& row, Pilot& pilot) { read_correlations(store, row, pilot); });
+}
+
+std::vector<PilotSeries> read_pilots(const schema::Reader& store,
+                                     const std::set<std::string>& wanted) {
+  return read_those(
+      store, [&](const std::string& series) { return wanted.contains(series); },
+      [](const schema::JobRow&, Pilot&) {});
+}
+
+}  // namespace haff::campaign

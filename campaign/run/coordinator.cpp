@@ -1,0 +1,280 @@
+#include "campaign/run/coordinator.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "campaign/base/cpu_time.hpp"
+#include "campaign/base/job_text.hpp"
+#include "campaign/base/signals.hpp"
+#include "campaign/run/abandoned.hpp"
+#include "campaign/run/display.hpp"
+#include "campaign/run/ledger.hpp"
+#include "campaign/run/worker.hpp"
+#include "campaign/run/worker_process.hpp"
+
+namespace haff::campaign {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+using Level = LogReport::Level;
+
+constexpr auto listen_for = 100ms;     // at most, until something else is looked after
+constexpr auto look_after_store = 1s;  // dead owners, progress of other runs
+constexpr auto grace = 5s;             // to leave in order; a transaction cut short is undone
+
+// Workers that die again and again without a job in hand will not do better next time.
+constexpr int hopeless = 5;
+
+// Kills in a row, without progress, that do not cost a job an attempt.
+constexpr int excused_kills = 10;
+
+class Coordinator {
+ public:
+  Coordinator(schema::Store& store, const RunOptions& options, Clock::time_point start,
+              std::size_t workers)
+      : store_(store),
+        options_(options),
+        start_(start),
+        display_(workers),
+        ledger_(store),
+        workers_(workers),
+        has_finished_(workers) {}
+
+  // Returns when all workers have ended.
+  void run() {
+    look_after_abandoned();
+    start_workers();
+    while (is_anyone_alive()) {
+      listen();
+      bury_the_dead();
+      look_after_time();
+      if (!is_stopping()) start_workers();
+      if (Clock::now() - looked_ >= look_after_store) {
+        look_after_abandoned();
+        ledger_.refresh(store_);
+      }
+      display_.show(ledger_.totals());
+    }
+  }
+
+  bool is_over_limit() const { return over_limit_; }
+  bool has_store_error() const { return store_error_; }
+
+ private:
+  bool is_stopping() const { return stopping_since_.has_value(); }
+
+  bool is_anyone_alive() const {
+    return std::any_of(workers_.begin(), workers_.end(),
+                       [](const auto& worker) { return worker != nullptr; });
+  }
+
+  void start_workers() {
+    for (std::size_t k = 0; k < workers_.size(); ++k)
+      if (!workers_[k] && !has_finished_[k])
+        workers_[k] = std::make_unique<WorkerProcess>(options_.store);
+  }
+
+  void listen() {
+    std::vector<pollfd> pipes;
+    for (const auto& worker : workers_)
+      if (worker) pipes.push_back({worker->report_descriptor(), POLLIN, 0});
+    poll(pipes.data(), pipes.size(), std::chrono::milliseconds(listen_for).count());
+    for (std::size_t k = 0; k < workers_.size(); ++k)
+      if (workers_[k]) take_reports(k);
+  }
+
+  void take_reports(std::size_t k) {
+    for (const Report& report : workers_[k]->take_reports()) {
+      if (const auto* progress = std::get_if<ProgressReport>(&report)) {
+        crashes_without_job_ = 0;
+        ledger_.note(*progress);
+        display_.set(k, *progress);
+      } else if (const auto* log = std::get_if<LogReport>(&report)) {
+        display_.log(log->level, log->text);
+      } else {
+        display_.set(k, std::nullopt);
+      }
+    }
+  }
+
+  void bury_the_dead() {
+    for (std::size_t k = 0; k < workers_.size(); ++k) {
+      if (!workers_[k] || !workers_[k]->has_ended()) continue;
+      take_reports(k);
+      display_.set(k, std::nullopt);
+      const auto held = held_by(workers_[k]->identity());
+      const WorkerProcess::End end = workers_[k]->bury();
+      workers_[k].reset();
+      if (end.signal == 0 && end.exit_code == worker_has_finished) {
+        has_finished_[k] = true;
+      } else if (end.signal == 0 && end.exit_code == worker_cannot_use_store) {
+        store_error_ = true;
+        give_back(held);
+        stop();
+      } else if (end.signal == 0 && end.exit_code == worker_was_stopped) {
+        // By us, or by somebody who meant this one only: then it is replaced.
+      } else {
+        charge(held, end);
+      }
+    }
+  }
+
+  std::vector<schema::RunningJob> held_by(const schema::Owner& worker) const {
+    auto jobs = store_.running();
+    std::erase_if(jobs, [&](const schema::RunningJob& job) { return job.owner != worker; });
+    return jobs;
+  }
+
+  // A crash costs the job an attempt, unless it was us who killed the worker to leave in time.
+  void charge(const std::vector<schema::RunningJob>& held, const WorkerProcess::End& end) {
+    if (held.empty()) look_out_for_hopelessness(end);
+    for (const schema::RunningJob& job : held) {
+      const std::string error =
+          fmt::format("{} (seed {}, after tau {:.6g}, {} collisions)", end.text(), job.job.seed,
+                      job.progress.tau, job.progress.collisions);
+      const bool is_excused = is_stopping() || (end.signal == SIGKILL && excuses_kill(job));
+      const bool for_good = is_excused ? give_back(job.lease) : fail(job.lease, error);
+      display_.log(for_good ? Level::error : Level::warning,
+                   fmt::format("job {} ({}){}: {}", job.lease.job_id, describe(job.job),
+                               for_good ? " failed" : "", error));
+    }
+  }
+
+  void look_out_for_hopelessness(const WorkerProcess::End& end) {
+    if (is_stopping() || end.signal == SIGKILL || ++crashes_without_job_ < hopeless) return;
+    throw std::runtime_error(fmt::format(
+        "workers end before they take a job: {}; run again with --verbose", end.text()));
+  }
+
+  // SIGKILL comes from outside and says little about the job: a person, a machine that shuts
+  // down. Only a job whose workers are killed again and again while it gets no further may itself
+  // be the reason, by the memory it takes.
+  bool excuses_kill(const schema::RunningJob& job) {
+    Kills& kills = kills_[job.lease.job_id];
+    const double tau = stored_tau(job.lease.job_id);
+    if (tau > kills.tau) kills = {.tau = tau, .count = 0};
+    return ++kills.count <= excused_kills;
+  }
+
+  double stored_tau(std::int64_t job_id) const {
+    for (const schema::CheckpointInfo& checkpoint : store_.checkpoints())
+      if (checkpoint.job_id == job_id) return checkpoint.tau;
+    return 0;
+  }
+
+  // What a worker could not store any more; if we cannot either, the next run does.
+  void give_back(const std::vector<schema::RunningJob>& held) {
+    try {
+      for (const schema::RunningJob& job : held) store_.reclaim(job.lease);
+    } catch (const schema::StoreError&) {
+    }
+  }
+
+  bool give_back(const schema::Lease& lease) {
+    store_.reclaim(lease);
+    return false;
+  }
+
+  bool fail(const schema::Lease& lease, const std::string& error) {
+    try {
+      return store_.fail(lease, error) == schema::Status::failed;
+    } catch (const schema::LeaseLost&) {
+      return false;  // another run has already taken it
+    }
+  }
+
+  // Our own dead are looked after when they are buried.
+  void look_after_abandoned() {
+    looked_ = Clock::now();
+    for (const schema::RunningJob& job : store_.running()) {
+      if (is_mine(job.owner) || !is_abandoned(job) || !store_.reclaim(job.lease)) continue;
+      display_.log(Level::info,
+                   fmt::format("job {} ({}): its owner, process {} on {}, is gone; taken back",
+                               job.lease.job_id, describe(job.job), job.owner.pid, job.owner.host));
+    }
+  }
+
+  bool is_mine(const schema::Owner& owner) const {
+    return std::any_of(workers_.begin(), workers_.end(),
+                       [&](const auto& worker) { return worker && worker->identity() == owner; });
+  }
+
+  void look_after_time() {
+    const auto now = Clock::now();
+    if (!is_stopping() && stop_signal() != 0) {
+      display_.log(Level::info,
+                   "stopping: workers store what they can (once more to stop at once)");
+      stop();
+    }
+    if (!is_stopping() && options_.max_seconds &&
+        now - start_ > std::chrono::duration<double>(*options_.max_seconds)) {
+      over_limit_ = true;
+      display_.log(Level::info, "stopping: --max-time is over");
+      stop();
+    }
+    if (!is_stopping() && options_.cpu_budget && cpu_spent() > *options_.cpu_budget) {
+      over_limit_ = true;
+      display_.log(Level::info, "stopping: --budget is spent");
+      stop();
+    }
+    if (is_stopping() && (stop_signals() > 1 || now - *stopping_since_ > grace))
+      for (const auto& worker : workers_)
+        if (worker) worker->signal(SIGKILL);
+  }
+
+  double cpu_spent() const {
+    double sum = cpu_seconds_of_the_buried();
+    for (const auto& worker : workers_)
+      if (worker) sum += cpu_seconds_of(static_cast<pid_t>(worker->identity().pid));
+    return sum;
+  }
+
+  void stop() {
+    if (is_stopping()) return;
+    stopping_since_ = Clock::now();
+    for (const auto& worker : workers_)
+      if (worker) worker->signal(SIGTERM);
+  }
+
+  schema::Store& store_;
+  const RunOptions& options_;
+  Clock::time_point start_;  // of the run, of which this may be a later round
+  Display display_;
+  Ledger ledger_;
+  std::vector<std::unique_ptr<WorkerProcess>> workers_;
+  std::vector<bool> has_finished_;
+  int crashes_without_job_ = 0;
+  struct Kills {
+    double tau = 0;
+    int count = 0;
+  };
+  std::map<std::int64_t, Kills> kills_;  // by job
+  bool over_limit_ = false;
+  bool store_error_ = false;
+  std::optional<Clock::time_point> stopping_since_;
+  Clock::time_point looked_;
+};
+
+}  // namespace
+
+RoundEnd run_round(schema::Store& store, const RunOptions& options,
+                   std::chrono::steady_clock::time_point start) {
+  const schema::Summary before = store.summary();
+  const auto useful = before.claimable + before.waiting + before.jobs.at(schema::Status::running);
+  if (useful == 0) return {};
+  const auto workers = std::min<std::int64_t>(options.workers, useful);
+  Coordinator coordinator(store, options, start, static_cast<std::size_t>(workers));
+  coordinator.run();
+  return {coordinator.is_over_limit(), coordinator.has_store_error()};
+}
+
+}  // namespace haff::campaign

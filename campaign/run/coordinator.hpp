@@ -1,0 +1,31 @@
+// The coordinator of a run: it starts workers, listens to them, replaces those that die and takes
+// back the jobs of the dead. The workers choose and do the jobs by themselves.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+struct RunOptions {
+  std::filesystem::path store;
+  int workers = 1;
+  std::optional<double> max_seconds;  // wall clock
+  std::optional<double> cpu_budget;   // of all workers together [s]
+};
+
+// What ended a round before its work was done.
+struct RoundEnd {
+  bool over_limit = false;   // --max-time or --budget
+  bool store_error = false;  // a worker could not use the store
+};
+
+// Runs all that is pending and returns when all workers have ended. `start` is that of the whole
+// run, of which this may be a later round: its time limit counts from there.
+RoundEnd run_round(schema::Store& store, const RunOptions& options,
+                   std::chrono::steady_clock::time_point start);
+
+}  // namespace haff::campaign

@@ -1,0 +1,142 @@
+#include "campaign/run/display.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "campaign/base/duration.hpp"
+
+namespace haff::campaign {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto redraw_every = 200ms;
+constexpr auto line_every = 10s;
+
+std::size_t terminal_width() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+std::string rate_text(double per_second) {
+  return per_second >= 1e5 ? fmt::format("{:5.2f} M collisions/s", per_second / 1e6)
+                           : fmt::format("{:5.1f} k collisions/s", per_second / 1e3);
+}
+
+std::string bar(double fraction, std::size_t width) {
+  const auto filled = static_cast<std::size_t>(
+      std::lround(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(width)));
+  return '[' + std::string(filled, '#') + std::string(width - filled, '.') + ']';
+}
+
+std::string totals_text(const Totals& totals) {
+  std::string text =
+      fmt::format("{:5.1f} %  {} of {} jobs done", 100 * totals.fraction, totals.done, totals.jobs);
+  if (totals.failed > 0) text += fmt::format(", {} failed", totals.failed);
+  if (totals.seconds_left) text += fmt::format(", {} left", duration_text(*totals.seconds_left));
+  return text;
+}
+
+spdlog::level::level_enum spdlog_level(LogReport::Level level) {
+  switch (level) {
+    case LogReport::Level::debug:
+      return spdlog::level::debug;
+    case LogReport::Level::info:
+      return spdlog::level::info;
+    case LogReport::Level::warning:
+      return spdlog::level::warn;
+    case LogReport::Level::error:
+      return spdlog::level::err;
+  }
+  return spdlog::level::err;
+}
+
+}  // namespace
+
+std::vector<std::string> bars(const std::vector<std::optional<ProgressReport>>& workers,
+                              const Totals& totals, std::size_t width) {
+  constexpr std::size_t bar_width = 20;
+  std::vector<std::string> lines;
+  for (const auto& worker : workers) {
+    if (!worker) {
+      lines.emplace_back(bar(0, bar_width) + " waiting");
+      continue;
+    }
+    lines.push_back(fmt::format("{} tau {:6.1f}/{:<5g} {}  job {} {}",
+                                bar(worker->tau / worker->tau_max, bar_width), worker->tau,
+                                worker->tau_max, rate_text(worker->collisions_per_second),
+                                worker->job_id, worker->job));
+  }
+  lines.push_back(bar(totals.fraction, bar_width) + ' ' + totals_text(totals));
+  for (std::string& line : lines) line.resize(std::min(line.size(), width));
+  return lines;
+}
+
+std::string plain_line(const std::vector<std::optional<ProgressReport>>& workers,
+                       const Totals& totals) {
+  std::string running;
+  double rate = 0;
+  for (const auto& worker : workers) {
+    if (!worker) continue;
+    rate += worker->collisions_per_second;
+    running += fmt::format("{}job {} tau {:.1f}/{:g}", running.empty() ? "" : ", ", worker->job_id,
+                           worker->tau, worker->tau_max);
+  }
+  // A job that has just begun has no rate.
+  return fmt::format("{}{}{}{}", totals_text(totals), rate > 0 ? ", " + rate_text(rate) : "",
+                     running.empty() ? "" : "; ", running);
+}
+
+Display::Display(std::size_t workers)
+    : terminal_(isatty(STDERR_FILENO) == 1),
+      workers_(workers),
+      shown_(std::chrono::steady_clock::now()) {}
+
+Display::~Display() {
+  erase_bars();
+}
+
+void Display::set(std::size_t worker, std::optional<ProgressReport> report) {
+  workers_.at(worker) = std::move(report);
+}
+
+void Display::log(LogReport::Level level, const std::string& text) {
+  if (!spdlog::should_log(spdlog_level(level))) return;
+  erase_bars();
+  spdlog::log(spdlog_level(level), "{}", text);
+}
+
+void Display::show(const Totals& totals) {
+  const auto now = std::chrono::steady_clock::now();
+  if (terminal_ ? now - shown_ < redraw_every : now - shown_ < line_every) return;
+  shown_ = now;
+  terminal_ ? draw_bars(totals) : write_line(totals);
+}
+
+void Display::draw_bars(const Totals& totals) {
+  erase_bars();
+  std::string picture;
+  // One column stays free: a full line would wrap on some terminals.
+  for (const std::string& line : bars(workers_, totals, terminal_width() - 1))
+    picture += line + '\n';
+  std::fputs(picture.c_str(), stderr);
+  lines_drawn_ = workers_.size() + 1;
+}
+
+void Display::write_line(const Totals& totals) const {
+  spdlog::info("{}", plain_line(workers_, totals));
+}
+
+void Display::erase_bars() {
+  if (lines_drawn_ == 0) return;
+  fmt::print(stderr, "\033[{}A\r\033[J", lines_drawn_);
+  lines_drawn_ = 0;
+}
+
+}  // namespace haff::campaign

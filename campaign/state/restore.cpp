@@ -1,0 +1,63 @@
+#include "campaign/state/restore.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "campaign/base/job_text.hpp"
+#include "campaign/state/model.hpp"
+#include "engine/simulation.hpp"
+#include "engine/soundness.hpp"
+
+namespace haff::campaign {
+namespace {
+
+// L = (N/n)^(1/d) comes from a C library's cube root, which may differ in its last bit. [relative]
+constexpr double box_rounding = 1e-14;
+
+std::optional<std::string> contradiction(const engine::State& state,
+                                         const schema::Checkpoint& checkpoint,
+                                         const schema::Job& job) {
+  if (state.particles() != job.particles)
+    return fmt::format("it holds {} particles, the job has {}", state.particles(), job.particles);
+  if (state.d != job.d) return fmt::format("it is of dimension {}, the job of {}", state.d, job.d);
+  const double volume = job.particles / job.n;
+  const double box = job.d == 2 ? std::sqrt(volume) : std::cbrt(volume);
+  if (!(std::abs(state.box - box) <= box_rounding * box))
+    return fmt::format("its box has side {}, the job's {}", state.box, box);
+  if (state.collisions != checkpoint.collisions ||
+      state.collisions != engine::collisions_at(checkpoint.tau, job.particles))
+    return fmt::format("it holds the state after {} collisions, which is not tau = {}",
+                       state.collisions, checkpoint.tau);
+  if (mixture_in(state) != mixture_of(job)) return "it holds a gas of other species";
+  return unsoundness(state);
+}
+
+}  // namespace
+
+engine::State restore(const schema::Checkpoint& checkpoint, const schema::Job& job) {
+  engine::State state = decode(checkpoint.state);
+  if (const auto wrong = contradiction(state, checkpoint, job)) throw DamagedCheckpoint(*wrong);
+  return state;
+}
+
+std::optional<engine::State> newest_state(const schema::Reader& store, std::int64_t job_id,
+                                          const schema::Job& job) {
+  const auto damaged = [&](const std::exception& why) {
+    return DamagedCheckpoint(
+        fmt::format("the checkpoint of job {} ({}) is damaged and was not used: {}; "
+                    "`campaign retry` computes that job again from its start",
+                    job_id, describe(job), why.what()));
+  };
+  try {
+    const auto checkpoint = store.checkpoint(job_id);
+    if (!checkpoint) return std::nullopt;
+    return restore(*checkpoint, job);
+  } catch (const schema::Damage& damage) {
+    throw damaged(damage);
+  } catch (const DamagedCheckpoint& damage) {
+    throw damaged(damage);
+  }
+}
+
+}  // namespace haff::campaign

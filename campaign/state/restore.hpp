@@ -1,0 +1,18 @@
+// From a checkpoint in the store to a state the engine may go on from.
+#pragma once
+
+#include "campaign/state/checkpoint.hpp"
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+// The state of the job. Throws DamagedCheckpoint if it does not decode, is not a state of this
+// job, or cannot be one of hard spheres: such a state is never used.
+engine::State restore(const schema::Checkpoint& checkpoint, const schema::Job& job);
+
+// The newest state of a job in the store, nothing if there is none. Throws DamagedCheckpoint with
+// a message that names the job and what to do.
+std::optional<engine::State> newest_state(const schema::Reader& store, std::int64_t job_id,
+                                          const schema::Job& job);
+
+}  // namespace haff::campaign

@@ -1,0 +1,259 @@
+#include "campaign/job/measurement.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "analysis/cooling.hpp"
+#include "analysis/moments.hpp"
+#include "campaign/state/model.hpp"
+#include "engine/initial.hpp"
+
+using namespace haff;
+using namespace haff::campaign;
+
+namespace {
+
+schema::Job job(double e, std::uint32_t particles = 1000) {
+  schema::Job job;
+  job.e = e;
+  job.n = 0.4;
+  job.particles = particles;
+  job.seed = 1;
+  job.observables = {"laguerre", "temperature"};
+  return job;
+}
+
+engine::Simulation gas(const schema::Job& job) {
+  return engine::Simulation({.restitution = *job.e},
+                            engine::initial_state(job.n, job.particles, job.seed));
+}
+
+}  // namespace
+
+TEST_CASE("measurement: the first sample has a temperature and no rates") {
+  auto gas = ::gas(job(0.8));
+  const auto first = measure(gas, job(0.8), 0, std::nullopt);
+  CHECK(first.time == 0);
+  CHECK(*first.temperature == doctest::Approx(2.0 / 3).epsilon(1e-14));
+  CHECK(first.a2);
+  CHECK_FALSE(first.gamma_ratio);
+  CHECK_FALSE(first.collision_rate);
+  CHECK_FALSE(first.pressure);
+}
+
+TEST_CASE("measurement: rates follow from two samples") {
+  const auto physics = job(0.8);
+  auto gas = ::gas(physics);
+  const auto first = measure(gas, physics, 0, std::nullopt);
+  gas.run_to(engine::collisions_at(2, physics.particles));
+  const auto second = measure(gas, physics, 2, first);
+  CHECK(*second.gamma_ratio == doctest::Approx(std::log(*first.temperature / *second.temperature) /
+                                               (2 * analysis::gamma0(0.8) * 2)));
+  CHECK(*second.collision_rate == doctest::Approx(2 / second.time));
+  // Between the ideal gas and a generous bound on the excess.
+  CHECK(*second.pressure > 0.4 * *second.temperature);
+  CHECK(*second.pressure < 10 * 0.4 * *first.temperature);
+}
+
+TEST_CASE("measurement: an elastic gas has no gamma_ratio") {
+  const auto physics = job(1);
+  auto gas = ::gas(physics);
+  const auto first = measure(gas, physics, 0, std::nullopt);
+  gas.run_to(engine::collisions_at(1, physics.particles));
+  const auto second = measure(gas, physics, 1, first);
+  CHECK_FALSE(second.gamma_ratio);
+  CHECK(second.collision_rate);
+}
+
+TEST_CASE("measurement: what is not asked for is not measured") {
+  auto physics = job(0.8);
+  physics.observables = {"temperature"};
+  auto gas = ::gas(physics);
+  const auto sample = measure(gas, physics, 0, std::nullopt);
+  CHECK(sample.temperature);
+  CHECK_FALSE(sample.a2);
+}
+
+TEST_CASE("measurement: two samples at one instant have no rates between them") {
+  auto gas = ::gas(job(0.8));
+  const auto first = measure(gas, job(0.8), 0, std::nullopt);
+  const auto second = measure(gas, job(0.8), 1e-6, first);
+  CHECK_FALSE(second.collision_rate);
+  CHECK_FALSE(second.pressure);
+}
+
+TEST_CASE("measurement: temperature in true units however far the gas has cooled") {
+  const auto physics = job(0.5, 108);
+  auto gas = ::gas(physics);
+  gas.run_to(engine::collisions_at(300, physics.particles));
+  REQUIRE(gas.exponent() != 0);
+  const auto sample = measure(gas, physics, 300, std::nullopt);
+  const double scaled = analysis::moments(gas.velocities()).temperature;
+  CHECK(*sample.temperature == scaled * std::exp2(-2 * gas.exponent()));
+}
+
+namespace {
+
+schema::Job job_with_views() {
+  schema::Job wide = job(0.8, 4000);
+  wide.observables = {"clusters", "correlations", "distribution",
+                      "fields",   "structure",    "temperature"};
+  wide.profiles_every = 10;
+  wide.fields_at = {20};
+  return wide;
+}
+
+std::vector<std::string> names(const Views& views) {
+  std::vector<std::string> all;
+  for (const auto& profile : views.profiles) all.push_back(profile.name);
+  for (const auto& field : views.fields) all.push_back(field.name);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("measurement: profiles and fields at their times, and no others") {
+  const auto physics = job_with_views();
+  const auto gas = ::gas(physics);
+  schema::Sample sample{.tau = 10};
+  using Names = std::vector<std::string>;
+  CHECK(names(view(gas, physics, sample)) == Names{"rho", "G_parallel", "G_perpendicular", "S"});
+  CHECK(sample.correlation_trace);
+  CHECK(sample.largest_cluster);
+  sample = {.tau = 20};
+  CHECK(names(view(gas, physics, sample)) ==
+        Names{"rho", "G_parallel", "G_perpendicular", "S", "density", "velocity", "temperature"});
+  sample = {.tau = 15};
+  CHECK(names(view(gas, physics, sample)).empty());
+  CHECK_FALSE(sample.correlation_trace);
+  CHECK_FALSE(sample.largest_cluster);
+}
+
+TEST_CASE("measurement: a profile that is not listed is not taken") {
+  auto physics = job_with_views();
+  physics.observables = {"clusters", "temperature"};
+  schema::Sample sample{.tau = 10};
+  CHECK(names(view(::gas(physics), physics, sample)).empty());
+  CHECK(sample.largest_cluster);
+  CHECK_FALSE(sample.correlation_trace);
+}
+
+TEST_CASE("measurement: fields in true units however far the gas has cooled") {
+  auto physics = job_with_views();
+  physics.e = 0.5;
+  physics.particles = 500;
+  physics.fields_at = {60};
+  physics.profiles_every = 60;
+  auto gas = ::gas(physics);
+  gas.run_to(engine::collisions_at(60, physics.particles));
+  REQUIRE(gas.exponent() != 0);
+  schema::Sample sample = measure(gas, physics, 60, std::nullopt);
+  const auto views = view(gas, physics, sample);
+  const auto named = [&](const char* name) {
+    return *std::find_if(views.fields.begin(), views.fields.end(),
+                         [&](const auto& field) { return field.name == name; });
+  };
+  // Energy of the flow and of what moves within the cells is that of the gas:
+  // d T = sum_r N_r (u^2 + d T_L (N_r - 1) / N_r) / N.
+  const auto density = named("density"), u = named("velocity"), T = named("temperature");
+  const double volume = std::pow(density.box / density.cells, 3);
+  double twice_energy = 0;
+  for (std::size_t c = 0; c < density.values.size(); ++c) {
+    const double number = density.values[c] * volume;
+    for (std::size_t a = 0; number > 0.5 && a < 3; ++a)
+      twice_energy += number * std::pow(u.values[3 * c + a], 2);
+    if (number > 1.5) twice_energy += 3 * T.values[c] * (number - 1);
+  }
+  CHECK(twice_energy / physics.particles ==
+        doctest::Approx(3 * *sample.temperature).epsilon(1e-12));
+}
+
+TEST_CASE("measurement: tau_c and its time between two samples") {
+  // T = 2/3 exp(-tau/10), slower than Haff's law at e = 0.8, 2 gamma_0 = 0.12:
+  // T/T_Haff = exp(tau/50) = 2 at tau = 50 ln 2 = 34.66. Time grows linearly here.
+  std::vector<schema::Sample> samples;
+  for (int tau = 0; tau <= 50; ++tau)
+    samples.push_back(
+        {.tau = 1.0 * tau, .time = 3.0 * tau, .temperature = 2.0 / 3 * std::exp(-0.1 * tau)});
+  const auto found = results(samples, job(0.8));
+  CHECK(*found.tau_c == doctest::Approx(50 * std::log(2)).epsilon(1e-12));
+  CHECK(*found.time_c == doctest::Approx(150 * std::log(2)).epsilon(1e-12));
+}
+
+TEST_CASE("measurement: no tau_c before it is reached, nor for an elastic gas") {
+  std::vector<schema::Sample> samples;
+  for (int tau = 0; tau <= 5; ++tau)
+    samples.push_back({.tau = 1.0 * tau, .time = 1.0 * tau, .temperature = 2.0 / 3});
+  CHECK_FALSE(results(samples, job(1)).tau_c);
+  CHECK_FALSE(results({samples.front()}, job(0.8)).tau_c);
+}
+
+TEST_CASE("measurement: a_l of few particles at fixed energy and momentum") {
+  // Two particles have equal speeds, c^2 = 3/2, so a_l = l! Gamma(3/2)/Gamma(l+3/2) L_l(3/2).
+  CHECK(equilibrium_laguerre(2, job(1, 2)) == doctest::Approx(-2.0 / 5));
+  CHECK(equilibrium_laguerre(2, job(1, 100)) == doctest::Approx(-2.0 / (3 * 99 + 2)));
+  CHECK(equilibrium_laguerre(0, job(1, 5)) == 1);
+  CHECK(equilibrium_laguerre(1, job(1, 5)) == doctest::Approx(0));
+  const analysis::LaguerreCoefficients equal =
+      analysis::moments(std::vector<std::array<double, 3>>{{1, 0, 0}, {-1, 0, 0}}).laguerre;
+  CHECK(equilibrium_laguerre(3, job(1, 2)) == doctest::Approx(equal[3]));
+  CHECK(equilibrium_laguerre(4, job(1, 2)) == doctest::Approx(equal[4]));
+}
+
+TEST_CASE("measurement: a Gaussian gas is in equilibrium, another is not") {
+  const auto physics = job(1, 4000);
+  schema::Sample sample{.a2 = 0.0, .a3 = 0.0, .a4 = 0.0};
+  CHECK(is_equilibrated(sample, physics));
+  sample.a2 = 0.06;  // 5 standard errors, sqrt(8/(15 N)) = 0.0115
+  CHECK_FALSE(is_equilibrated(sample, physics));
+  sample.a2 = std::nullopt;
+  CHECK_FALSE(is_equilibrated(sample, physics));
+}
+
+TEST_CASE("measurement: rough spheres have a temperature of rotation, no tau_c") {
+  auto physics = job(0.8);
+  physics.effects = R"({"roughness":{"beta":0.5,"q":0.4}})";
+  engine::Simulation gas(model_of(physics), engine::initial_state(0.4, physics.particles, 1));
+  const auto first = measure(gas, physics, 0, std::nullopt);
+  CHECK(*first.rotational_temperature == 0);
+  gas.run_to(engine::collisions_at(30, physics.particles));
+  const auto later = measure(gas, physics, 30, first);
+  CHECK(*later.rotational_temperature ==
+        doctest::Approx(std::ldexp(*gas.rotational_energy(), -2 * gas.exponent()) * 2 / 3));
+  CHECK(*later.rotational_temperature > 0.1 * *later.temperature);
+  CHECK_FALSE(later.temperature_1);
+  CHECK_FALSE(results({first, later}, physics).tau_c);
+
+  auto smooth = ::gas(job(0.8));
+  CHECK_FALSE(measure(smooth, job(0.8), 0, std::nullopt).rotational_temperature);
+}
+
+TEST_CASE("measurement: rough disks turn about one axis") {
+  auto physics = job(0.8);
+  physics.d = 2;
+  physics.effects = R"({"roughness":{"beta":0.5,"q":0.5}})";
+  engine::Simulation gas(model_of(physics), engine::initial_state(0.4, physics.particles, 1, 2));
+  gas.run_to(engine::collisions_at(10, physics.particles));
+  const auto sample = measure(gas, physics, 10, std::nullopt);
+  CHECK(*sample.rotational_temperature ==
+        doctest::Approx(std::ldexp(*gas.rotational_energy(), -2 * gas.exponent()) * 2));
+}
+
+TEST_CASE("measurement: a mixture has the temperatures of its species, and of all") {
+  auto physics = job(1);
+  physics.effects = R"({"mixture":{"diameter_ratio":0.5,"fraction":0.3,"mass_ratio":0.1}})";
+  const auto model = model_of(physics);
+  engine::Simulation gas(model, engine::initial_state(0.4, physics.particles, 1, 3, model.effects));
+  gas.run_to(engine::collisions_at(10, physics.particles));
+  const auto sample = measure(gas, physics, 10, std::nullopt);
+  CHECK(*sample.temperature == doctest::Approx(2.0 / 3).epsilon(1e-12));
+  CHECK(0.7 * *sample.temperature_1 + 0.3 * *sample.temperature_2 ==
+        doctest::Approx(*sample.temperature).epsilon(1e-12));
+  // Of 300 particles in equilibrium, four standard errors sqrt(2/900).
+  CHECK(std::abs(*sample.temperature_2 * 1.5 - 1) < 4 * std::sqrt(2.0 / 900));
+  CHECK(std::abs(*sample.a2) < 4 * analysis::laguerre_noise(2, physics.particles));
+}

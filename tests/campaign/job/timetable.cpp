@@ -1,0 +1,87 @@
+#include "campaign/job/timetable.hpp"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+using namespace haff;
+using namespace haff::campaign;
+
+namespace {
+
+schema::Job job(double sample_every, std::uint32_t particles = 100) {
+  schema::Job job;
+  job.sample_every = sample_every;
+  job.particles = particles;
+  return job;
+}
+
+std::vector<Stop> all(Timetable timetable) {
+  std::vector<Stop> stops;
+  while (const auto stop = timetable.next()) stops.push_back(*stop);
+  return stops;
+}
+
+std::vector<double> taus(const std::vector<Stop>& stops, Stop::Due due, bool kept_only = false) {
+  std::vector<double> list;
+  for (const Stop& stop : stops)
+    if (stop.due == due && (stop.keep || !kept_only)) list.push_back(stop.tau);
+  return list;
+}
+
+}  // namespace
+
+TEST_CASE("timetable: samples from 0 to tau_max") {
+  CHECK(taus(all(Timetable(job(4), 13, 10)), Stop::Due::sample) ==
+        std::vector<double>{0, 4, 8, 12});
+}
+
+TEST_CASE("timetable: a last sample that rounding puts above tau_max is one") {
+  CHECK(sample_count(0.1, 0.3) == 4);  // 3 * 0.1 > 0.3
+  CHECK(sample_count(0.1, 90) == 901);
+  CHECK(sample_count(1, 90) == 91);
+  CHECK(sample_count(7, 6) == 1);
+}
+
+TEST_CASE("timetable: every synchronization up to the last sample") {
+  CHECK(taus(all(Timetable(job(5), 34, 10)), Stop::Due::synchronization) ==
+        std::vector<double>{10, 20, 30});
+}
+
+TEST_CASE("timetable: at the same collision, the sample comes first") {
+  const auto stops = all(Timetable(job(5), 10, 10));
+  REQUIRE(stops.size() == 4);
+  CHECK(stops[2].due == Stop::Due::sample);
+  CHECK(stops[3].due == Stop::Due::synchronization);
+  CHECK(stops[2].collisions == stops[3].collisions);
+}
+
+TEST_CASE("timetable: states are kept at or after each multiple of checkpoint_every") {
+  const auto kept = [](double checkpoint_every) {
+    return taus(all(Timetable(job(1), 100, checkpoint_every)), Stop::Due::synchronization, true);
+  };
+  CHECK(kept(25) == std::vector<double>{30, 50, 80, 100});
+  CHECK(kept(40) == std::vector<double>{40, 80, 100});
+  CHECK(kept(3) == std::vector<double>{10, 20, 30, 40, 50, 60, 70, 80, 90, 100});
+  CHECK(kept(10) == std::vector<double>{10, 20, 30, 40, 50, 60, 70, 80, 90, 100});
+  CHECK(kept(1e6) == std::vector<double>{100});
+}
+
+TEST_CASE("timetable: the last synchronization before the end is kept") {
+  CHECK(taus(all(Timetable(job(1), 47, 1000)), Stop::Due::synchronization, true) ==
+        std::vector<double>{40});
+}
+
+TEST_CASE("timetable: a stored state has behind it what came up to its collisions") {
+  Timetable timetable(job(5), 30, 10);
+  timetable.skip_through(500);  // tau = 10
+  const auto stops = all(timetable);
+  CHECK(taus(stops, Stop::Due::sample) == std::vector<double>{15, 20, 25, 30});
+  CHECK(taus(stops, Stop::Due::synchronization) == std::vector<double>{20, 30});
+}
+
+TEST_CASE("timetable: collisions never decrease") {
+  const auto stops = all(Timetable(job(0.3, 7), 50, 10));
+  for (std::size_t k = 1; k < stops.size(); ++k)
+    CHECK(stops[k - 1].collisions <= stops[k].collisions);
+}

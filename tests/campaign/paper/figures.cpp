@@ -1,0 +1,195 @@
+// The figures command on stores made from theory: files, words and exit codes.
+#include "campaign/paper/figures.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <initializer_list>
+#include <sstream>
+#include <string>
+
+#include "campaign/paper/figure.hpp"
+#include "schema/grid.hpp"
+#include "support/synthetic_store.hpp"
+#include "support/temporary_folder.hpp"
+
+using namespace haff;
+using namespace haff::campaign;
+
+namespace {
+
+schema::Store first_campaign(int seeds = 2) {
+  auto store = schema::Store::create(":memory:");
+  add_finished(store, 0.8, 0.4, 2000, seeds, 90);
+  add_finished(store, 0.9, 0.4, 2000, seeds, 180);
+  add_finished(store, 0.85, 0.2, 2000, seeds, 40);
+  add_finished_with_profiles(store, 0.8, 0.4, 3000, 1, 60, 10, {60});
+  return store;
+}
+
+std::string contents(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+struct Drawn {
+  int code;
+  std::string report;
+};
+
+Drawn draw(const schema::Reader& store, const std::filesystem::path& out,
+           std::vector<int> only = {}) {
+  std::ostringstream report;
+  const int code = draw_figures(store, {.out = out, .only = std::move(only)}, report);
+  return {code, report.str()};
+}
+
+}  // namespace
+
+TEST_CASE("figures: a small campaign gives tables and pictures of all it can draw") {
+  const TemporaryFolder folder;
+  const auto drawn = draw(first_campaign(), folder.path() / "made" / "here");
+  CHECK(drawn.code == 0);
+  for (int id = 1; id <= 13; ++id) {
+    const std::string name = "figure-" + std::string(id < 10 ? "0" : "") + std::to_string(id);
+    const auto file = folder.path() / "made" / "here" / name;
+    CHECK(contents(file.string() + ".csv").starts_with("panel,curve,kind,"));
+    CHECK(contents(file.string() + ".svg").find("</svg>") != std::string::npos);
+    CHECK(contents(file.string() + ".png").starts_with("\x89PNG"));
+  }
+  CHECK(drawn.report.find("N = 2 000, mean of 2 realizations. haff synthetic.") !=
+        std::string::npos);
+}
+
+TEST_CASE("figures: a page shows them all, beside a table of agreement") {
+  const TemporaryFolder folder;
+  const auto drawn = draw(first_campaign(), folder.path());
+  CHECK(drawn.report.find("index.html") != std::string::npos);
+  const std::string page = contents(folder.path() / "index.html");
+  CHECK(page.find("src=\"figure-01.svg\"") != std::string::npos);
+  CHECK(page.find("Figure 13") != std::string::npos);
+  CHECK(contents(folder.path() / "agreement.csv").find("\ntau_c,") != std::string::npos);
+}
+
+TEST_CASE("figures: one realization is drawn too, without errors") {
+  const TemporaryFolder folder;
+  const auto drawn = draw(first_campaign(1), folder.path());
+  CHECK(drawn.code == 0);
+  CHECK(drawn.report.find("one realization") != std::string::npos);
+  CHECK(drawn.report.find("standard error") == std::string::npos);
+}
+
+TEST_CASE("figures: only those asked for are drawn") {
+  const TemporaryFolder folder;
+  CHECK(draw(first_campaign(), folder.path(), {2}).code == 0);
+  CHECK(std::filesystem::exists(folder.path() / "figure-02.svg"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "figure-01.svg"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "index.html"));
+}
+
+TEST_CASE("figures: a figure asked for whose data is missing is named, with a grid that gives it") {
+  const TemporaryFolder folder;
+  auto store = schema::Store::create(":memory:");
+  add_finished(store, 0.95, 0.4, 2000, 1, 20);  // does not reach tau_c
+  const auto drawn = draw(store, folder.path(), {1, 2});
+  CHECK(drawn.code == 1);
+  const auto words = drawn.report.find("figure  2");
+  REQUIRE(words != std::string::npos);
+  const auto from = drawn.report.find('{', words), to = drawn.report.rfind('}');
+  const std::string grid = drawn.report.substr(from, to - from + 1);
+  CHECK_NOTHROW(
+      schema::parse_grid(grid, "the example", {.bytes = 1e12, .bytes_per_particle = 100}));
+}
+
+TEST_CASE("figures: an empty store gives none, and says what to plan") {
+  const TemporaryFolder folder;
+  const auto drawn = draw(schema::Store::create(":memory:"), folder.path());
+  CHECK(drawn.code == 1);
+  CHECK(drawn.report.find("plan, for example") != std::string::npos);
+}
+
+TEST_CASE("figures: a number the paper does not have is refused") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(draw(first_campaign(), folder.path(), {15}), UnknownFigure);
+}
+
+TEST_CASE("figures: without gnuplot the tables are written and one message says what to install") {
+  const TemporaryFolder folder;
+  const char* set = std::getenv("PATH");
+  const std::string path = set != nullptr ? set : "";
+  ::setenv("PATH", folder.path().c_str(), 1);
+  const auto drawn = draw(first_campaign(), folder.path());
+  ::setenv("PATH", path.c_str(), 1);
+  CHECK(drawn.code == 1);
+  CHECK(std::filesystem::exists(folder.path() / "figure-01.csv"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "figure-01.svg"));
+  const auto first = drawn.report.find("apt-get install gnuplot-nox");
+  CHECK(first != std::string::npos);
+  CHECK(drawn.report.find("apt-get install", first + 1) == std::string::npos);
+}
+
+TEST_CASE("figures: a folder that cannot be made is an error that names it") {
+  CHECK_THROWS_WITH(draw(first_campaign(), "/proc/nowhere"), doctest::Contains("/proc/nowhere"));
+}
+
+TEST_CASE("figure 11: a decay rate belongs to the middle of its interval") {
+  auto store = schema::Store::create(":memory:");
+  add_finished(store, 0.8, 0.4, 2000, 1, 20, 2);
+  const auto plot = figure_11(read_averages(store));
+  REQUIRE(plot);
+  const Curve& measured = plot->panels.front().curves.front();
+  REQUIRE(measured.source == Source::measured);
+  CHECK(measured.x[1] == 1);  // of the sample at tau = 2
+}
+
+TEST_CASE("figure 13: where E - E_Haff meets E_Haff is tau_c") {
+  const auto plot = figure_13(read_averages(first_campaign()));
+  REQUIRE(plot);
+  const auto& curves = plot->panels.front().curves;
+  const Curve& haff = curves[0];    // of e = 0.80
+  const Curve& theory = curves[4];  // after two of Haff and two measured
+  REQUIRE(theory.source == Source::theory);
+  double crossing = 0;
+  for (std::size_t i = 1; i < theory.x.size(); ++i) {
+    if (theory.y[i] > haff.y[i] && crossing == 0) crossing = theory.x[i];
+  }
+  // 58.6 from an independent solution, to the spacing of the curve's points.
+  CHECK(std::abs(crossing - 58.6) < 0.4);
+}
+
+TEST_CASE("captions: gases of the same size and number of realizations are named together") {
+  std::vector<MeanSeries> series(3);
+  for (auto& each : series) each.n = 0.4;
+  series[0] = {.e = 0.80, .n = 0.4, .particles = 32000, .realizations = {2, 2}};
+  series[1] = {.e = 0.85, .n = 0.4, .particles = 600000, .realizations = {1}};
+  series[2] = {.e = 0.865, .n = 0.4, .particles = 32000, .realizations = {2}};
+  CHECK(provenance(series) ==
+        "n = 0.40; e = 0.80, 0.865: N = 32 000, mean of 2 realizations; e = 0.85: N = 600 000, one "
+        "realization.");
+}
+
+TEST_CASE("captions: of densities the restitution is common; what is missing is said") {
+  std::vector<MeanSeries> series(2);
+  series[0] = {
+      .e = 0.85, .n = 0.05, .particles = 1000, .realizations = {3, 3, 2}, .tau = {0, 1, 2}};
+  series[1] = {.e = 0.85, .n = 0.4, .particles = 1000, .realizations = {3}, .tau = {0}};
+  series[1].missing = 1;
+  series[1].code_versions = {"0.1.0 (1a2b)"};
+  CHECK(provenance(series) ==
+        "e = 0.85; n = 0.40: N = 1 000, mean of 3 realizations (1 planned not done); n = 0.05: N = "
+        "1 000, mean of 3 realizations (2 beyond τ = 1). haff 0.1.0 (1a2b).");
+}
+
+TEST_CASE("figure 7: smoothed over the paper's windows, against tau/tau_c") {
+  const auto plot = figure_07(read_averages(first_campaign()));
+  REQUIRE(plot);
+  const Curve& curve = plot->panels.front().curves.front();
+  CHECK(curve.e == 0.8);
+  const auto averages = read_averages(first_campaign());
+  const auto chosen = choose_series(averages, 0.4, &MeanSeries::a2);
+  const Realization& run = chosen.front().runs.front();
+  CHECK(curve.x[10] == doctest::Approx(10 / *run.tau_c));
+  CHECK(curve.y[10] == doctest::Approx((run.a2[9] + run.a2[10] + run.a2[11]) / 3));
+}

@@ -1,0 +1,56 @@
+// Fits to series made from the theory that is fitted.
+#include "campaign/results/fits.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support/synthetic_store.hpp"
+
+using namespace haff;
+using namespace haff::campaign;
+
+namespace {
+
+MeanSeries synthetic(double e, int seeds, double tau_max, std::uint32_t particles = 500'000) {
+  auto store = schema::Store::create(":memory:");
+  add_finished(store, e, 0.4, particles, seeds, tau_max);
+  return read_averages(store).series.front();
+}
+
+}  // namespace
+
+TEST_CASE("fits: b of a gas that obeys the energy equation is the one it was made with") {
+  const auto fit = fitted_cutoff(synthetic(0.8, 4, 90));
+  REQUIRE(fit);
+  CHECK(fit->count == 4);
+  CHECK(fit->standard_error > 0);
+  // Noise of 1/sqrt(500 000) in ln E against 0.2 in ln E a unit of ln b: within one per cent.
+  CHECK(fit->mean == doctest::Approx(0.30).epsilon(0.01));
+}
+
+TEST_CASE("fits: one realization has a fit, but no error") {
+  const auto fit = fitted_cutoff(synthetic(0.8, 1, 90));
+  REQUIRE(fit);
+  CHECK(std::isnan(fit->standard_error));
+}
+
+TEST_CASE("fits: a few samples are fitted to nothing") {
+  CHECK_FALSE(fitted_cutoff(synthetic(0.8, 1, 5)));
+}
+
+TEST_CASE("fits: a late exponent needs a series well beyond twice tau_c") {
+  CHECK_FALSE(late_exponent(synthetic(0.8, 1, 130)));
+  CHECK(late_exponent(synthetic(0.8, 2, 180))->count == 2);
+}
+
+TEST_CASE("fits: the late exponent is that of T beyond 2 tau_c") {
+  MeanSeries series;
+  Realization run{.tau_c = 20.0};
+  for (int k = 1; k <= 60; ++k) {
+    run.tau.push_back(k);
+    run.temperature.push_back(k < 40 ? 1.0 : std::pow(k, -3.0));
+  }
+  series.runs = {run};
+  CHECK(late_exponent(series)->mean == doctest::Approx(3));
+}

@@ -1,0 +1,70 @@
+#include "campaign/run/process.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "campaign/run/abandoned.hpp"
+
+using namespace haff;
+using namespace haff::campaign;
+
+TEST_CASE("process: this one lives") {
+  CHECK(life_of(this_process()) == Life::alive);
+}
+
+TEST_CASE("process: another that has the same number is not it") {
+  auto process = this_process();
+  process.started -= 1;
+  CHECK(life_of(process) == Life::dead);
+}
+
+TEST_CASE("process: one of before a restart is dead") {
+  auto process = this_process();
+  process.boot_id[0] = process.boot_id[0] == '0' ? '1' : '0';
+  CHECK(life_of(process) == Life::dead);
+}
+
+TEST_CASE("process: nothing is known of another host or container") {
+  auto process = this_process();
+  process.host += "-other";
+  CHECK(life_of(process) == Life::unknown);
+  process = this_process();
+  process.boot_id += "other";
+  CHECK(life_of(process) == Life::unknown);
+}
+
+TEST_CASE("process: a child that has ended is dead, buried or not") {
+  const pid_t id = fork();
+  if (id == 0) {
+    pause();
+    _exit(0);
+  }
+  const schema::Owner child = child_process(id);
+  CHECK(life_of(child) == Life::alive);
+  kill(id, SIGKILL);
+  siginfo_t info{};
+  waitid(P_PID, static_cast<id_t>(id), &info, WEXITED | WNOWAIT);
+  CHECK(life_of(child) == Life::dead);
+  waitpid(id, nullptr, 0);
+  CHECK(life_of(child) == Life::dead);
+}
+
+TEST_CASE("abandoned: a job of another host is when its lease is old") {
+  schema::RunningJob job;
+  job.owner = this_process();
+  job.owner.host += "-other";
+  job.renewed = "2003-09-05T12:00:00.000Z";
+  CHECK(is_abandoned(job));
+  job.renewed = "2999-09-05T12:00:00.000Z";
+  CHECK_FALSE(is_abandoned(job));
+}
+
+TEST_CASE("abandoned: a job of a living process is not, however old its lease") {
+  schema::RunningJob job;
+  job.owner = this_process();
+  job.renewed = "2003-09-05T12:00:00.000Z";
+  CHECK_FALSE(is_abandoned(job));
+}

@@ -1,0 +1,106 @@
+#include "campaign/state/checkpoint.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "campaign/state/restore.hpp"
+#include "engine/initial.hpp"
+
+using namespace haff;
+using namespace haff::campaign;
+
+namespace {
+
+engine::State a_state() {
+  engine::State state = engine::initial_state(0.4, 100, 1);
+  state.exponent = -3;
+  state.collisions = 123456789012;
+  state.time = 0.1;
+  state.tally = {.dissipated = 1.5, .virial = -0.0};
+  state.invariants = {.closest2 = 1 - 1e-15,
+                      .past_events = 3,
+                      .watchdog_trips = 1,
+                      .energy_mismatch = 1e-14,
+                      .momentum_removed = 1e-17};
+  state.memory["last_contact"] = {-0.5, 0.0, -std::numeric_limits<double>::infinity()};
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("checkpoint: decode gives back what encode was given") {
+  CHECK(decode(encode(a_state())) == a_state());
+}
+
+TEST_CASE("checkpoint: the sign of zero is kept") {
+  CHECK(std::signbit(decode(encode(a_state())).tally.virial));
+}
+
+TEST_CASE("checkpoint: bytes begin with the name of the format") {
+  CHECK(std::memcmp(encode(a_state()).data(), "HAFFGAS\n", 8) == 0);
+}
+
+TEST_CASE("checkpoint: equal states have equal bytes") {
+  CHECK(encode(a_state()) == encode(a_state()));
+}
+
+TEST_CASE("checkpoint: any changed bit is found") {
+  auto bytes = encode(a_state());
+  for (std::size_t place = 0; place < bytes.size(); place += 7)
+    for (int bit = 0; bit < 8; bit += 3) {
+      CAPTURE(place);
+      bytes[place] ^= std::byte{1} << bit;
+      CHECK_THROWS_AS(decode(bytes), DamagedCheckpoint);
+      bytes[place] ^= std::byte{1} << bit;
+    }
+}
+
+TEST_CASE("checkpoint: any cut is found") {
+  const auto bytes = encode(a_state());
+  for (std::size_t size = 0; size < bytes.size(); size += 13)
+    CHECK_THROWS_AS(decode(std::span(bytes).first(size)), DamagedCheckpoint);
+}
+
+TEST_CASE("checkpoint: bytes added are found") {
+  auto bytes = encode(a_state());
+  bytes.resize(bytes.size() + 8);
+  CHECK_THROWS_AS(decode(bytes), DamagedCheckpoint);
+}
+
+TEST_CASE("checkpoint: a count whose bytes overflow is found behind a valid checksum") {
+  engine::State state = a_state();
+  state.memory.clear();
+  auto bytes = encode(state);
+  // The number of ids, after the fields' count and the fields "d" and "box".
+  const std::size_t ids = 8 + 4 + 4 + (1 + 1 + 1 + 8 + 4) + (1 + 3 + 1 + 8 + 8) + (1 + 2 + 1);
+  const std::uint64_t wrong = (std::uint64_t{1} << 62) + 100;
+  std::memcpy(bytes.data() + ids, &wrong, sizeof wrong);
+  bytes.resize(bytes.size() - 8);
+  const std::uint64_t sum = checkpoint_checksum(bytes);
+  bytes.resize(bytes.size() + 8);
+  std::memcpy(bytes.data() + bytes.size() - 8, &sum, sizeof sum);
+  CHECK_THROWS_WITH_AS(decode(bytes), doctest::Contains("cut short"), DamagedCheckpoint);
+}
+
+TEST_CASE("checkpoint: an overlap behind a valid checksum is refused, pair and depth named") {
+  const schema::Job job{.e = 0.8, .n = 0.4, .particles = 100, .seed = 1};
+  engine::State state = engine::initial_state(job.n, job.particles, 1);
+  state.position[1] = state.position[0];
+  state.position[1][2] += 0.75;
+  CHECK_THROWS_WITH_AS(restore({.tau = 0, .collisions = 0, .state = encode(state)}, job),
+                       doctest::Contains("overlap by 0.25"), DamagedCheckpoint);
+}
+
+TEST_CASE("checkpoint: disks stay disks, and are none of spheres") {
+  const schema::Job job{.d = 2, .e = 0.8, .n = 0.4, .particles = 100, .seed = 1};
+  const engine::State state = engine::initial_state(job.n, job.particles, 1, 2);
+  const schema::Checkpoint stored{.tau = 0, .collisions = 0, .state = encode(state)};
+  CHECK(restore(stored, job) == state);
+  schema::Job spheres = job;
+  spheres.d = 3;
+  CHECK_THROWS_WITH_AS(restore(stored, spheres), doctest::Contains("dimension 2"),
+                       DamagedCheckpoint);
+}
