@@ -21,7 +21,7 @@ std::string_view name(Kind kind);
 Kind kind_named(std::string_view name);  // throws std::invalid_argument
 
 // In this order, everywhere. The table job_status of the store holds the same rows.
-enum class Status { pending, running, done, failed, collapsed };
+enum class Status { pending, running, lent, done, failed, collapsed };
 
 struct StatusEntry {
   Status status;
@@ -29,9 +29,10 @@ struct StatusEntry {
   std::string_view meaning;
 };
 
-inline constexpr std::array<StatusEntry, 5> statuses{{
+inline constexpr std::array<StatusEntry, 6> statuses{{
     {Status::pending, "pending", "waits to be run, or to be gone on with"},
     {Status::running, "running", "a worker holds its lease"},
+    {Status::lent, "lent", "a shard holds it; merge or recall brings it home"},
     {Status::done, "done", "reached tau_max; samples and results are complete"},
     {Status::failed, "failed", "gave up after repeated errors; its last error is kept"},
     {Status::collapsed, "collapsed", "ended in inelastic collapse; samples up to then are kept"},

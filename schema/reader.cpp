@@ -27,7 +27,7 @@ Summary Reader::summary() const {
       SELECT status, count(*) AS number, total(cpu_seconds) AS spent,
              total(expected_cpu_seconds) AS expected,
              total(expected_cpu_seconds * max(0, 1 - tau / tau_max))
-               FILTER (WHERE status IN ('pending', 'running')) AS remaining
+               FILTER (WHERE status IN ('pending', 'running', 'lent')) AS remaining
       FROM jobs GROUP BY status)");
     while (jobs.executeStep()) {
       summary.jobs[status_named(text(jobs, "status"))] = integer(jobs, "number");
@@ -42,6 +42,7 @@ Summary Reader::summary() const {
     while (pending.executeStep()) {
       const Status start = status_named(text(pending, "start"));
       auto& count = start == Status::done                                  ? summary.claimable
+                    : start == Status::lent                                ? summary.elsewhere
                     : start == Status::pending || start == Status::running ? summary.waiting
                                                                            : summary.blocked;
       count += integer(pending, "number");

@@ -33,6 +33,7 @@
 #include "schema/error.hpp"
 #include "schema/job.hpp"
 #include "schema/query.hpp"
+#include "schema/shards.hpp"
 #include "schema/target.hpp"
 
 namespace haff::schema {
@@ -212,6 +213,7 @@ struct Summary {
   std::map<Status, std::int64_t> jobs;  // every status is there, also with 0
   std::int64_t claimable = 0;           // pending, could be claimed now
   std::int64_t waiting = 0;             // pending, its equilibration is pending or running
+  std::int64_t elsewhere = 0;           // pending, its equilibration is lent to a shard
   std::int64_t blocked = 0;             // pending, its equilibration failed: retry that first
   double cpu_seconds = 0;               // spent, all jobs
   double expected_cpu_seconds = 0;      // for all jobs from start to tau_max, where known
@@ -250,6 +252,12 @@ class Reader {
   // The job's newest checkpoint. Throws Damage if a chunk is missing or a bit is wrong.
   std::optional<Checkpoint> checkpoint(std::int64_t job_id) const;
 
+  // The campaign that this store belongs to, 32 hexadecimal digits; the name of the shard that this
+  // store is, nothing in the store that lends; the shards it has lent jobs to, by name.
+  std::string campaign_id() const;
+  std::optional<std::string> shard_name() const;
+  std::vector<Shard> shards() const;
+
   // What adding these jobs would do, in the order given. Changes nothing.
   std::vector<Outcome> preview(const std::vector<Planned>& plan) const;
 
@@ -260,6 +268,7 @@ class Reader {
   std::vector<std::string> faults() const;
 
  protected:
+  friend class Store;  // which reads from another store when it takes over a job
   explicit Reader(std::unique_ptr<Database> database);
   Database& database() const { return *database_; }
 
@@ -324,6 +333,27 @@ class Store : public Reader {
   // attempts. Its samples and results stay and are compared when they come out again. False, and
   // nothing done, if a worker holds the job.
   bool restart(std::int64_t job_id);
+
+  // Lend pending jobs to new shards: one transaction. Throws StoreError if a job is no longer
+  // pending (a run has taken it), or a shard of that name is there.
+  void lend(const std::vector<Loan>& loans);
+
+  // Make a new, empty store a shard of a campaign.
+  void become_shard(const std::string& campaign_id, const std::string& name);
+
+  // Take over what another store knows of one of its jobs: rows that are missing here, and its
+  // state, results and cost if it is ahead. A job that is not here is added. One transaction.
+  // `shard` names the shard that is merged; empty when a shard is being made. Throws Damage, and
+  // changes nothing, if a row that both have differs: the message names job, tau, column and both
+  // values.
+  Arrival take_over(const Reader& other, std::int64_t job_id, const std::string& shard = {});
+
+  // Note that a shard was merged, and that it is back if it has ended all its jobs.
+  void note_merge(const std::string& shard);
+
+  // Take back what a shard has not finished: those jobs are pending again, unless another shard
+  // holds them too. Returns how many.
+  std::int64_t recall(const std::string& shard);
 
  private:
   using Reader::Reader;

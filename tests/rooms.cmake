@@ -14,8 +14,9 @@ set(results state)
 set(plot base)
 set(accuracy planning results plot)
 set(paper results plot)
-set(commands run accuracy paper)
-set(folders base state job run planning results plot accuracy paper commands)
+set(cluster planning)
+set(commands run accuracy paper cluster)
+set(folders base state job run planning results plot accuracy paper cluster commands)
 
 # The includes "<prefix>NAME/..." of a file, as a list of NAME.
 function(included_folders file prefix result)

@@ -14,6 +14,7 @@ namespace haff::campaign {
 namespace {
 
 constexpr int most_workers = 1024;
+constexpr int most_shards = 100'000;
 
 constexpr const char* exit_codes = R"(Exit codes:
   0  complete
@@ -192,6 +193,52 @@ CLI::App* add_retry(CLI::App& app) {
   return command;
 }
 
+CLI::App* add_split(CLI::App& app, SplitOptions& options) {
+  auto* command =
+      app.add_subcommand("split", "Lend pending jobs to shards, to be run on other machines");
+  command->add_option("--into", options.into, "How many shards, at most")
+      ->check(CLI::Range(1, most_shards))
+      ->type_name("K")
+      ->required();
+  command->add_option("--out", options.out, "Folder to write them to")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_option("--workers", options.workers, "Workers of each shard, for the expected time")
+      ->check(CLI::Range(1, most_workers))
+      ->type_name("K")
+      ->capture_default_str();
+  command->footer(examples(R"(  campaign split --into 4
+  campaign run --store shards/shard-001.db     on another machine, like any store
+  campaign merge shards/shard-*.db             when they have ended, or before
+
+Jobs that are lent are not run here. A shard holds all that its jobs start from. Work is divided by
+expected CPU time, the longest job first.)"));
+  return command;
+}
+
+CLI::App* add_merge(CLI::App& app, MergeOptions& options) {
+  auto* command = app.add_subcommand("merge", "Bring home what shards have computed");
+  command->add_option("SHARD", options.shards, "Shards, as campaign split wrote them")
+      ->type_name("FILE...")
+      ->required();
+  command->footer(examples(R"(  campaign merge shards/shard-*.db
+
+In any order, as often as you like, of shards that have not ended, and while a run is on: rows that
+are here already are compared, in every bit, and the others are added. Exit code 1 if a shard is
+refused: it is of another campaign, damaged, or contradicts what is known.)"));
+  return command;
+}
+
+CLI::App* add_recall(CLI::App& app, RecallOptions& options) {
+  auto* command = app.add_subcommand("recall", "Take back the jobs that a shard will not finish");
+  command->add_option("SHARD", options.shards, "Names of shards, or their files")
+      ->type_name("NAME...")
+      ->required();
+  command->footer(examples(R"(  campaign recall shard-003
+  campaign recall scratch/shard-003.db     what is in this file is merged first)"));
+  return command;
+}
+
 CLI::App* add_worker(CLI::App& app, WorkerCommand& options) {
   auto* command = app.add_subcommand("worker", "")->group("");  // not shown
   command->add_option("DESCRIPTOR", options.report_descriptor)->required();
@@ -243,6 +290,9 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   FigureRequest figures;
   ExportCommand exported;
   CostRequest cost;
+  SplitOptions split;
+  MergeOptions merge;
+  RecallOptions recall;
   WorkerCommand worker;
   const CLI::App* plan_command = add_plan(app, plan);
   const CLI::App* run_command = add_run(app, run);
@@ -253,6 +303,9 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   const CLI::App* cost_command = add_cost(app, cost);
   const CLI::App* verify_command = add_verify(app);
   const CLI::App* retry_command = add_retry(app);
+  const CLI::App* split_command = add_split(app, split);
+  const CLI::App* merge_command = add_merge(app, merge);
+  const CLI::App* recall_command = add_recall(app, recall);
   const CLI::App* worker_command = add_worker(app, worker);
 
   try {
@@ -264,7 +317,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
     return app.exit(error) == 0 ? exit_complete : exit_bad_input;
   }
 
-  line.store = plan.store = run.store = store;
+  line.store = plan.store = run.store = split.store = merge.store = recall.store = store;
   if (plan_command->parsed()) line.command = plan;
   if (run_command->parsed()) line.command = run;
   if (status_command->parsed()) line.command = status;
@@ -274,6 +327,9 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   if (cost_command->parsed()) line.command = cost;
   if (verify_command->parsed()) line.command = VerifyCommand{};
   if (retry_command->parsed()) line.command = RetryCommand{};
+  if (split_command->parsed()) line.command = split;
+  if (merge_command->parsed()) line.command = merge;
+  if (recall_command->parsed()) line.command = recall;
   if (worker_command->parsed()) line.command = worker;
   return line;
 }

@@ -8,9 +8,12 @@
 #include <variant>
 
 #include "campaign/accuracy/cost.hpp"
+#include "campaign/commands/merge.hpp"
 #include "campaign/commands/plan.hpp"
 #include "campaign/commands/query.hpp"
+#include "campaign/commands/recall.hpp"
 #include "campaign/commands/run.hpp"
+#include "campaign/commands/split.hpp"
 #include "campaign/paper/figures.hpp"
 
 namespace haff::campaign {
@@ -31,9 +34,9 @@ struct WorkerCommand {  // what `run` starts; not for people
   int report_descriptor = 0;
 };
 
-using Command =
-    std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest, CostRequest,
-                 ExportCommand, VerifyCommand, RetryCommand, WorkerCommand>;
+using Command = std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest,
+                             CostRequest, ExportCommand, VerifyCommand, RetryCommand, SplitOptions,
+                             MergeOptions, RecallOptions, WorkerCommand>;
 
 struct CommandLine {
   std::filesystem::path store;

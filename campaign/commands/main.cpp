@@ -43,6 +43,9 @@ struct Perform {
   }
   int operator()(const VerifyCommand&) const { return verify(line.store); }
   int operator()(const RetryCommand&) const { return retry(line.store); }
+  int operator()(const SplitOptions& options) const { return split(options); }
+  int operator()(const MergeOptions& options) const { return merge(options); }
+  int operator()(const RecallOptions& options) const { return recall(options); }
   int operator()(const WorkerCommand& command) const {
     return work(line.store, command.report_descriptor);
   }

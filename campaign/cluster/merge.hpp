@@ -1,0 +1,29 @@
+// `campaign merge` and `campaign recall`: what shards have computed comes home.
+//
+// Where a job is at each moment: lent, it is in its shard alone, and the store that lent it keeps
+// what it had; merged, its rows and its newest state are in both. Merging copies and compares, and
+// takes nothing away from a shard.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+struct MergeOutcome {
+  std::string shard;
+  std::int64_t jobs = 0;      // of the shard
+  std::int64_t advanced = 0;  // of those, that the shard was ahead of
+  std::int64_t rows = 0;      // that were new
+};
+
+// Brings home what this shard has, a transaction a job: it may be killed, repeated and overlap with
+// a run. Holds at most one state in memory. Throws StoreError if the file is not a shard of this
+// store's campaign, Damage if the shard is damaged or contradicts what is known; what was brought
+// home before stays.
+MergeOutcome merge(schema::Store& store, const std::filesystem::path& shard);
+
+}  // namespace haff::campaign

@@ -1,0 +1,18 @@
+// `campaign merge`: what shards have computed comes home.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace haff::campaign {
+
+struct MergeOptions {
+  std::filesystem::path store;
+  std::vector<std::filesystem::path> shards;
+};
+
+// Merges each shard and prints what came of it. A shard that is refused is named, with the reason,
+// and costs the others nothing: the ExitCode then says so.
+int merge(const MergeOptions& options);
+
+}  // namespace haff::campaign

@@ -1,0 +1,53 @@
+#include "campaign/commands/split.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "campaign/base/command_text.hpp"
+#include "campaign/base/duration.hpp"
+#include "campaign/base/exit_code.hpp"
+#include "campaign/base/number_text.hpp"
+#include "campaign/base/text_table.hpp"
+#include "campaign/cluster/split.hpp"
+
+namespace haff::campaign {
+namespace {
+
+void print(const std::vector<WrittenShard>& shards, int workers) {
+  TextTable table({{"shard", Align::left}, {"jobs"}, {"CPU time"}, {"longest job"}, {"time"}});
+  double makespan = 0, cpu_seconds = 0;
+  std::size_t jobs = 0;
+  for (const WrittenShard& shard : shards) {
+    const double time = shard.share.makespan(workers);
+    table.add({shard.name, count_text(static_cast<long long>(shard.share.jobs.size())),
+               duration_text(shard.share.cpu_seconds),
+               duration_text(shard.share.longest_cpu_seconds), duration_text(time)});
+    makespan = std::max(makespan, time);
+    cpu_seconds += shard.share.cpu_seconds;
+    jobs += shard.share.jobs.size();
+  }
+  fmt::print("{}\n{} shard{} with {} jobs, {} of CPU time, in {}.\n", table.text(), shards.size(),
+             shards.size() == 1 ? "" : "s", jobs, duration_text(cpu_seconds),
+             shards.front().path.parent_path().string());
+  fmt::print("Expected with {} worker{} a shard, all shards at once: {}.\n", workers,
+             workers == 1 ? "" : "s", duration_text(makespan));
+}
+
+}  // namespace
+
+int split(const SplitOptions& options) {
+  schema::Store store = schema::Store::open(options.store);
+  const auto shards = split(store, options.into, options.out);
+  if (shards.empty()) {
+    fmt::print("No job is pending: there is nothing to lend.\n");
+    return exit_complete;
+  }
+  print(shards, options.workers);
+  const std::string all = (options.out / "shard-*.db").string();
+  fmt::print("Next: {} on another machine; then here: {}\n",
+             command_text("run", shards.front().path), command_text("merge " + all, options.store));
+  return exit_complete;
+}
+
+}  // namespace haff::campaign
