@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <system_error>
@@ -15,10 +14,13 @@
 #include "campaign/accuracy/assessment.hpp"
 #include "campaign/accuracy/cost_figure.hpp"
 #include "campaign/accuracy/precision.hpp"
+#include "campaign/base/csv.hpp"
 #include "campaign/base/duration.hpp"
 #include "campaign/base/job_text.hpp"
 #include "campaign/base/number_text.hpp"
+#include "campaign/base/printable.hpp"
 #include "campaign/base/text_table.hpp"
+#include "campaign/base/write_file.hpp"
 #include "campaign/planning/forecast.hpp"
 #include "campaign/plot/gnuplot.hpp"
 
@@ -52,7 +54,7 @@ std::string plan_for(Cause cause) {
 
 std::string gas_text(const schema::Job& job) {
   return fmt::format("e {}, n {}{}{}", e_text(job), number_text(job.n), job.d == 2 ? ", disks" : "",
-                     job.effects == schema::Job{}.effects ? "" : ", " + job.effects);
+                     job.effects == schema::Job{}.effects ? "" : ", " + printable(job.effects));
 }
 
 // Names in the order in which they come, each once.
@@ -334,62 +336,104 @@ void print_advice(const std::vector<Advice>& all, std::ostream& report) {
                table.text());
 }
 
-std::string field(double value) {
-  return std::isfinite(value) ? fmt::format("{:.17g}", value) : "";
+// A row of cost.csv: whose, then whatever the row has.
+struct CsvLine {
+  const char* row;
+  Quantity quantity;
+  schema::Job job;
+  std::string cause;
+  std::optional<std::size_t> realizations = {};
+  std::optional<double> cpu_seconds = {}, value = {}, error = {}, interval = {}, slope = {},
+                        slope_error = {}, correlation_time = {}, memory_bytes = {};
+};
+
+std::string text_of(const CsvLine& line) {
+  const Quantity& q = line.quantity;
+  const schema::Job& job = line.job;
+  return csv_row(line.row, name(q.measure), q.from, q.to, q.r, job.e, job.n, job.particles,
+                 job.equilibrate, job.precision, line.cause, line.realizations, line.cpu_seconds,
+                 line.value, line.error, line.interval, line.slope, line.slope_error,
+                 line.correlation_time, line.memory_bytes);
 }
 
-void write_csv(const Assessment& assessment, const std::vector<Advice>& advised,
-               const std::filesystem::path& file) {
-  std::ofstream csv(file);
-  csv << "row,quantity,tau_from,tau_to,r,e,n,particles,equilibrate,precision,cause,realizations,"
-         "cpu_seconds,value,error,interval,slope,slope_error,correlation_time,memory_bytes\n";
-  const auto begin = [&](const char* row, const Quantity& q, const schema::Job& job,
-                         const std::string& cause) {
-    csv << fmt::format("{},{},{},{},{},{},{},{},{},{},{}", row, name(q.measure), field(q.from),
-                       field(q.to), field(q.r),
-                       field(job.e.value_or(std::numeric_limits<double>::quiet_NaN())),
-                       field(job.n), job.particles, field(job.equilibrate), job.precision, cause);
-  };
-  for (const Statistics& each : assessment.statistics) {
-    begin("mean", each.quantity, each.job, "chance");
-    const auto runs = static_cast<double>(each.realizations);
-    csv << fmt::format(",{},{},{},{},{},{},{},{},\n", each.realizations,
-                       field(runs * each.cpu_seconds), field(each.mean), field(each.error),
-                       field(each.half_interval), each.slope ? field(each.slope->value) : "",
-                       each.slope ? field(each.slope->error) : "",
-                       each.correlation_time ? field(*each.correlation_time) : "");
-    for (const analysis::GroupScatter& group : each.scatter) {
-      begin("scatter", each.quantity, each.job, "chance");
-      csv << fmt::format(",{},{},{},{},,,,,\n", group.size,
-                         field(static_cast<double>(group.size) * each.cpu_seconds),
-                         field(group.scatter), field(group.error));
-    }
+std::string statistics_lines(const Statistics& each) {
+  CsvLine mean{.row = "mean",
+               .quantity = each.quantity,
+               .job = each.job,
+               .cause = "chance",
+               .realizations = each.realizations,
+               .cpu_seconds = static_cast<double>(each.realizations) * each.cpu_seconds,
+               .value = each.mean,
+               .error = each.error,
+               .interval = each.half_interval,
+               .correlation_time = each.correlation_time};
+  if (each.slope) {
+    mean.slope = each.slope->value;
+    mean.slope_error = each.slope->error;
   }
-  for (const Shift& each : assessment.shifts) {
-    begin("shift", each.quantity, each.job, "\"" + each.change + "\"");
-    csv << fmt::format(",,,{},{},,,,,\n", field(each.value), field(each.error));
-  }
+  std::string text = text_of(mean);
+  for (const analysis::GroupScatter& group : each.scatter)
+    text += text_of({.row = "scatter",
+                     .quantity = each.quantity,
+                     .job = each.job,
+                     .cause = "chance",
+                     .realizations = group.size,
+                     .cpu_seconds = static_cast<double>(group.size) * each.cpu_seconds,
+                     .value = group.scatter,
+                     .error = group.error});
+  return text;
+}
+
+// What is known of rounding, once for each quantity.
+std::string precision_lines(const Assessment& assessment) {
+  std::string text;
   std::vector<Quantity> done;
   for (const Statistics& each : assessment.statistics) {
     if (std::ranges::find(done, each.quantity) != done.end()) continue;
     done.push_back(each.quantity);
-    for (const PrecisionShift& shift : single_less_double(each.quantity)) {
-      const schema::Job job{
-          .e = precision_e, .n = precision_n, .particles = shift.particles, .precision = "single"};
-      begin("shift", shift.quantity, job, "single less double");
-      csv << fmt::format(",{},,{},{},,,,,\n", shift.realizations, field(shift.value),
-                         field(shift.error));
-    }
+    for (const PrecisionShift& shift : single_less_double(each.quantity))
+      text += text_of({.row = "shift",
+                       .quantity = shift.quantity,
+                       .job = {.e = precision_e,
+                               .n = precision_n,
+                               .particles = shift.particles,
+                               .precision = "single"},
+                       .cause = "single less double",
+                       .realizations = shift.realizations,
+                       .value = shift.value,
+                       .error = shift.error});
   }
+  return text;
+}
+
+void write_csv(const Assessment& assessment, const std::vector<Advice>& advised,
+               const std::filesystem::path& file) {
+  std::string text =
+      csv_row("row", "quantity", "tau_from", "tau_to", "r", "e", "n", "particles", "equilibrate",
+              "precision", "cause", "realizations", "cpu_seconds", "value", "error", "interval",
+              "slope", "slope_error", "correlation_time", "memory_bytes");
+  for (const Statistics& each : assessment.statistics) text += statistics_lines(each);
+  for (const Shift& each : assessment.shifts)
+    text += text_of({.row = "shift",
+                     .quantity = each.quantity,
+                     .job = each.job,
+                     .cause = each.change,
+                     .value = each.value,
+                     .error = each.error});
+  text += precision_lines(assessment);
   for (const Advice& each : advised) {
     if (!each.offer) continue;
-    begin("advice", each.quantity, each.offer->job, "finite size");
-    csv << fmt::format(",{},{},{},{},,,,,{}\n", each.offer->realizations,
-                       field(each.offer->cpu_seconds), field(each.offer->finite_size),
-                       field(each.target), field(each.memory_bytes));
+    text += text_of({.row = "advice",
+                     .quantity = each.quantity,
+                     .job = each.offer->job,
+                     .cause = "finite size",
+                     .realizations = each.offer->realizations,
+                     .cpu_seconds = each.offer->cpu_seconds,
+                     .value = each.offer->finite_size,
+                     .error = each.target,
+                     .memory_bytes = each.memory_bytes});
   }
-  csv.close();
-  if (!csv) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  write_file(file, text);
 }
 
 std::optional<double> number_from(const std::string& text) {
@@ -474,14 +518,11 @@ int cost(const schema::Reader& store, const CostRequest& request, std::ostream& 
   make_folder(request.out);
   write_csv(assessment, advised, request.out / "cost.csv");
   fmt::print(report, "Written: {}\n", (request.out / "cost.csv").string());
-  try {
-    for (const std::string& picture : draw_cost(assessment, request.out))
-      fmt::print(report, "         {}\n", picture);
-  } catch (const GnuplotMissing& missing) {
-    fmt::print(report, "{}\n", missing.what());
-    return 1;
-  }
-  return 0;
+  const OutputFiles pictures = draw_cost(assessment, request.out);
+  for (const auto& picture : pictures.written())
+    fmt::print(report, "         {}\n", picture.string());
+  pictures.print_missing(report);
+  return pictures.is_complete() ? 0 : 1;
 }
 
 }  // namespace haff::campaign

@@ -36,9 +36,10 @@ struct CostRequest {
 // if it names no quantity, a window that the quantity cannot have, or no error above 0.
 std::optional<CostTarget> target_from_text(const std::string& text);
 
-// Returns an exit code: 0, or 1 if no cooling run is done yet (it says what to plan) or gnuplot is
-// not installed (table and CSV are there). Throws std::runtime_error if a file cannot be written,
-// and the errors of the store.
+// Returns an exit code: 0, or 1 if no cooling run is done yet (the report says what to plan) or a
+// picture could not be drawn (the table and the CSV file are there, the report says what is missing
+// and why). Throws std::runtime_error if the CSV file cannot be written, and the errors of the
+// store.
 int cost(const schema::Reader& store, const CostRequest& request, std::ostream& report);
 
 }  // namespace haff::campaign

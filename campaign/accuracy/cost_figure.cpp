@@ -11,7 +11,8 @@
 
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/text_table.hpp"
-#include "campaign/plot/gnuplot.hpp"
+#include "campaign/plot/colours.hpp"
+#include "campaign/plot/picture.hpp"
 #include "campaign/plot/plot.hpp"
 
 namespace haff::campaign {
@@ -200,8 +201,7 @@ Panel panel_of(const Assessment& assessment, const Members& members, const Inks&
 
 }  // namespace
 
-std::vector<std::string> draw_cost(const Assessment& assessment,
-                                   const std::filesystem::path& folder) {
+OutputFiles draw_cost(const Assessment& assessment, const std::filesystem::path& folder) {
   struct Gas {
     schema::Job job;
     std::vector<Members> quantities;
@@ -221,7 +221,7 @@ std::vector<std::string> draw_cost(const Assessment& assessment,
     gas.quantities.back().push_back(&each);
   }
 
-  std::vector<std::string> written;
+  OutputFiles pictures;
   for (const std::string& key : order) {
     const Gas& gas = gases[key];
     Plot plot;
@@ -239,14 +239,9 @@ std::vector<std::string> draw_cost(const Assessment& assessment,
         "errors.",
         density_text(gas.job.n), e);
     const std::string stem = fmt::format("cost-e{}-n{}", e, density_text(gas.job.n));
-    const auto svg = folder / (stem + ".svg"), png = folder / (stem + ".png");
-    run_gnuplot(gnuplot_script(plot, svg, Format::svg));
-    finish_svg(plot, svg);
-    run_gnuplot(gnuplot_script(plot, png, Format::png));
-    written.push_back(svg.string());
-    written.push_back(png.string());
+    draw_both(plot, folder / stem, pictures);
   }
-  return written;
+  return pictures;
 }
 
 }  // namespace haff::campaign

@@ -4,15 +4,13 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "campaign/accuracy/assessment.hpp"
+#include "campaign/base/output_files.hpp"
 
 namespace haff::campaign {
 
-// SVG and PNG; returns their names. Throws GnuplotMissing.
-std::vector<std::string> draw_cost(const Assessment& assessment,
-                                   const std::filesystem::path& folder);
+// SVG and PNG.
+OutputFiles draw_cost(const Assessment& assessment, const std::filesystem::path& folder);
 
 }  // namespace haff::campaign

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "campaign/base/printable.hpp"
+
 namespace haff::campaign {
 namespace {
 
@@ -17,6 +19,11 @@ std::string padded(const std::string& text, std::size_t wanted, Align align) {
 }
 
 }  // namespace
+
+void TextTable::add(std::vector<std::string> cells) {
+  for (std::string& cell : cells) cell = printable(cell);
+  rows_.push_back(std::move(cells));
+}
 
 std::string TextTable::text() const {
   std::vector<std::size_t> widths;

@@ -17,8 +17,8 @@ class TextTable {
 
   explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-  // As many cells as there are columns.
-  void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+  // As many cells as there are columns. They may hold text of a store: each is made printable.
+  void add(std::vector<std::string> cells);
   bool empty() const { return rows_.empty(); }
 
   std::string text() const;

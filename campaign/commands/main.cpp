@@ -5,6 +5,7 @@
 #include "campaign/accuracy/cost.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/log.hpp"
+#include "campaign/base/printable.hpp"
 #include "campaign/commands/command_line.hpp"
 #include "campaign/commands/export.hpp"
 #include "campaign/commands/plan.hpp"
@@ -53,7 +54,7 @@ struct Perform {
 
 int complain(const std::exception& error, int exit_code) {
   std::cout.flush();
-  std::cerr << "campaign: " << error.what() << '\n';
+  std::cerr << "campaign: " << printable_lines(error.what()) << '\n';
   return exit_code;
 }
 

@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "campaign/base/csv.hpp"
 #include "campaign/base/exit_code.hpp"
+#include "campaign/base/printable.hpp"
 #include "campaign/base/text_table.hpp"
 #include "schema/store.hpp"
 
@@ -43,21 +45,6 @@ std::string all_digits(double value) {
   return text;
 }
 
-// On one line, whatever is in it.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
-  return text;
-}
-
-std::string csv_quoted(const std::string& text) {
-  // An empty text is quoted to tell it from NULL.
-  if (!text.empty() && text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
 std::string json_quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -67,14 +54,13 @@ bool is_number(const schema::Value& value) {
 }
 
 void print_csv(schema::Query& rows) {
-  const auto print = [](std::size_t count, const auto& cell) {
-    for (std::size_t c = 0; c < count; ++c) fmt::print("{}{}", c > 0 ? "," : "", cell(c));
-    fmt::print("\n");
+  const auto print = [](const auto& cells, const auto& text) {
+    std::vector<std::string> fields;
+    for (const auto& cell : cells) fields.push_back(text(cell));
+    fmt::print("{}", csv_line(fields));
   };
-  const auto& columns = rows.columns();
-  print(columns.size(), [&](std::size_t c) { return csv_quoted(columns[c]); });
-  while (const auto row = rows.next())
-    print(row->size(), [&](std::size_t c) { return csv_text((*row)[c]); });
+  print(rows.columns(), [](const std::string& column) { return csv_field(column); });
+  while (const auto row = rows.next()) print(*row, csv_text);
 }
 
 void print_json(schema::Query& rows) {
@@ -115,7 +101,7 @@ std::string csv_text(const schema::Value& value) {
   return std::visit(Overloaded{[](Null) { return std::string(); },
                                [](std::int64_t number) { return std::to_string(number); },
                                [](double number) { return all_digits(number); },
-                               [](const std::string& text) { return csv_quoted(text); },
+                               [](const std::string& text) { return csv_field(text); },
                                [](const Blob& blob) { return blob_text(blob, blob.size()); }},
                     value);
 }
@@ -135,7 +121,7 @@ std::string table_text(const schema::Value& value) {
   return std::visit(Overloaded{[](Null) { return std::string("NULL"); },
                                [](std::int64_t number) { return std::to_string(number); },
                                [](double number) { return fmt::format("{:.8g}", number); },
-                               [](const std::string& text) { return one_line(text); },
+                               [](const std::string& text) { return printable(text); },
                                [](const Blob& blob) { return blob_text(blob, shown_bytes); }},
                     value);
 }

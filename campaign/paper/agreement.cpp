@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -16,8 +14,10 @@
 #include "analysis/enskog_boltzmann.hpp"
 #include "analysis/moments.hpp"
 #include "analysis/statistics.hpp"
+#include "campaign/base/csv.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/text_table.hpp"
+#include "campaign/base/write_file.hpp"
 #include "campaign/paper/figure.hpp"
 #include "campaign/results/fits.hpp"
 #include "campaign/results/published.hpp"
@@ -405,17 +405,6 @@ void add_onset(const MeanSeries& series, std::vector<Comparison>& table) {
   }
 }
 
-// A field of a table: 17 digits, nothing for what does not exist; text in quotes.
-std::string field(double value) {
-  return std::isfinite(value) ? fmt::format("{:.17g}", value) : "";
-}
-std::string field(const std::optional<double>& value) {
-  return value ? field(*value) : "";
-}
-std::string quoted(const std::string& text) {
-  return '"' + text + '"';  // none of ours holds a quote
-}
-
 }  // namespace
 
 std::vector<Comparison> agreement(const Averages& averages) {
@@ -447,16 +436,14 @@ std::vector<Comparison> agreement(const Averages& averages) {
 }
 
 void write_agreement(const std::vector<Comparison>& table, const std::filesystem::path& file) {
-  std::ofstream out(file);
-  out << "claim,quantity,e,n,value,standard_error,reference,source,criterion,holds,note\n";
+  std::string text = csv_row("claim", "quantity", "e", "n", "value", "standard_error", "reference",
+                             "source", "criterion", "holds", "note");
   for (const Comparison& row : table) {
-    out << fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", row.claim, quoted(row.quantity),
-                       field(row.e), field(row.n), field(row.value), field(row.error),
-                       field(row.reference), quoted(row.source), quoted(row.criterion),
-                       row.holds ? (*row.holds ? "yes" : "no") : "", quoted(row.note));
+    text +=
+        csv_row(row.claim, row.quantity, row.e, row.n, row.value, row.error, row.reference,
+                row.source, row.criterion, row.holds ? (*row.holds ? "yes" : "no") : "", row.note);
   }
-  out.close();
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  write_file(file, text);
 }
 
 }  // namespace haff::campaign

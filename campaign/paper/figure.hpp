@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/plot/colours.hpp"
 #include "campaign/plot/plot.hpp"
 #include "campaign/results/averages.hpp"
 

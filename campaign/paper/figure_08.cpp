@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "campaign/base/number_text.hpp"
@@ -40,6 +41,20 @@ Curve slice(const VelocityField& gas, int k) {
   return curve;
 }
 
+// The store may be damaged, or made by somebody else: as many values as the layers are read from.
+void check(const schema::Field& field) {
+  constexpr int most_cells = 1000;  // along an axis: more is no count of cells
+  const bool counted = field.cells > 0 && field.cells <= most_cells && field.components == 3;
+  const auto cells = static_cast<std::size_t>(counted ? field.cells : 0);
+  const bool sound = counted && field.values.size() == 3 * cells * cells * cells &&
+                     std::isfinite(field.box) && field.box > 0;
+  if (!sound)
+    throw std::runtime_error(fmt::format(
+        "the velocity field at τ = {:g} is damaged: {} values for {} cells along each axis; "
+        "\"campaign verify\" says more",
+        field.tau, field.values.size(), field.cells));
+}
+
 double length(const std::array<double, 2>& arrow) {
   return std::hypot(arrow[0], arrow[1]);
 }
@@ -49,7 +64,8 @@ double length(const std::array<double, 2>& arrow) {
 std::optional<Plot> figure_08(const Averages& averages) {
   if (!averages.velocity_field) return std::nullopt;
   const VelocityField& gas = *averages.velocity_field;
-  if (gas.field.cells < layers || gas.field.components < 2) return std::nullopt;
+  check(gas.field);
+  if (gas.field.cells < layers) return std::nullopt;
   const double half = gas.field.box / 2, cell = gas.field.box / gas.field.cells;
 
   std::vector<Curve> slices;

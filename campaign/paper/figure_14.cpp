@@ -1,5 +1,7 @@
 // Figure 14, not of the paper but its argument: with velocities shuffled, and so without
-// correlations, a_2 stays on the Enskog-Boltzmann plateau and energy is lost at that theory's rate.
+// correlations, a_2 stays near the value of Enskog-Boltzmann theory and energy is lost nearly at
+// that theory's rate. Positions are not shuffled: see the note on shuffled gases in
+// engine/README.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,28 +9,63 @@
 #include <utility>
 
 #include "analysis/enskog_boltzmann.hpp"
-#include "analysis/statistics.hpp"
 #include "campaign/paper/figure.hpp"
 
 namespace haff::campaign {
 namespace {
 
-// One run's a_2 is noise of the size of the plateau: averaged over so many samples. [odd]
-constexpr std::size_t window = 11;
+// One sample of a_2 is noise of the size of the value that it settles to. While a_2 still changes,
+// each sample is a point; later ones are averaged over intervals of tau that change little in it.
+constexpr double settled = 6;   // tau
+constexpr double interval = 5;  // tau
 
-Curve measured(const MeanSeries& series, const Means& means, bool shuffled, double end) {
-  Curve curve = measured_curve(series);
-  curve.name = shuffled ? "shuffled" : "not shuffled";
-  curve.legend = curve.name;
-  curve.colour = colour(shuffled ? 1 : 0, 2);
-  for (std::size_t i = 0; i < series.tau.size(); ++i) {
-    if (!std::isfinite(means.value[i])) continue;  // there is no rate at tau = 0
-    curve.x.push_back(series.tau[i]);
-    curve.y.push_back(means.value[i]);
+using RunValues = std::vector<double> Realization::*;
+
+// The mean of samples first ... last - 1 with its error, over realizations.
+analysis::Estimate mean_of_samples(const MeanSeries& series, RunValues values, std::size_t first,
+                                   std::size_t last) {
+  std::vector<double> means;
+  for (const Realization& run : series.runs) {
+    if (run.tau.size() < last) continue;
+    const auto begin = (run.*values).begin();
+    means.push_back(analysis::estimate({begin + static_cast<std::ptrdiff_t>(first),
+                                        begin + static_cast<std::ptrdiff_t>(last)})
+                        .mean);
   }
-  curve.y = analysis::smoothed(curve.y, window);
-  curve.realizations.resize(curve.x.size(), series.most_realizations());
-  return until(end, std::move(curve));
+  return analysis::estimate(means);
+}
+
+// Where the interval that begins with this sample ends.
+std::size_t interval_end(const MeanSeries& series, std::size_t first, double end) {
+  if (series.tau[first] < settled) return first + 1;
+  std::size_t last = first + 1;
+  while (last < series.tau.size() && series.tau[last] <= end &&
+         series.tau[last] < series.tau[first] + interval)
+    ++last;
+  return last;
+}
+
+Curve measured(const MeanSeries& series, RunValues values, bool rate, double end) {
+  Curve curve = measured_curve(series);
+  curve.name = series.shuffled_every ? fmt::format("shuffled every {:g}", *series.shuffled_every)
+                                     : "not shuffled";
+  curve.legend = series.shuffled_every
+                     ? fmt::format("shuffled every {{/:Italic τ}} = {:g}", *series.shuffled_every)
+                     : curve.name;
+  curve.realizations.clear();
+  curve.look = Look::symbols;
+  // A rate is that of the interval before its sample; there is none before the first.
+  for (std::size_t i = rate ? 1 : 0; i < series.tau.size() && series.tau[i] <= end;) {
+    const std::size_t last = interval_end(series, i, end);
+    const auto mean = mean_of_samples(series, values, i, last);
+    const double middle = 0.5 * (series.tau[i] + series.tau[last - 1]);
+    curve.x.push_back(rate ? middle - 0.5 * series.sample_every : middle);
+    curve.y.push_back(mean.mean);
+    curve.error.push_back(mean.standard_error);
+    curve.realizations.push_back(static_cast<std::int64_t>(mean.count));
+    i = last;
+  }
+  return curve;
 }
 
 Curve theory(double e, double end, bool rate) {
@@ -47,38 +84,65 @@ Curve theory(double e, double end, bool rate) {
   return curve;
 }
 
-Panel panel(const MeanSeries& plain, const MeanSeries& shuffled, Observable observable,
-            double end) {
-  const bool rate = observable == &MeanSeries::gamma_ratio;
-  return {
-      .name = rate ? "gamma_ratio" : "a2",
-      .x = {.label = "{/:Italic τ}", .column = "tau", .low = 0, .high = end},
-      .y = {.label = rate ? "{/:Italic γ}/{/:Italic γ}_0" : "{/:Italic a}_2",
-            .column = rate ? "gamma_ratio" : "a2"},
-      .curves = {measured(plain, plain.*observable, false, end),
-                 measured(shuffled, shuffled.*observable, true, end), theory(plain.e, end, rate)},
-      .legend = rate ? "bottom left" : "none"};
+Panel panel(const std::vector<const MeanSeries*>& gases, bool rate, double end) {
+  Panel result{.name = rate ? "gamma_ratio" : "a2",
+               .x = {.label = "{/:Italic τ}", .column = "tau", .low = 0, .high = end},
+               .y = {.label = rate ? "{/:Italic γ}/{/:Italic γ}_0" : "{/:Italic a}_2",
+                     .column = rate ? "gamma_ratio" : "a2"},
+               .legend = rate ? "bottom left" : "none"};
+  const RunValues values = rate ? &Realization::gamma_ratio : &Realization::a2;
+  for (const MeanSeries* series : gases) {
+    result.curves.push_back(measured(*series, values, rate, end));
+    result.curves.back().colour = colour(result.curves.size() - 1, gases.size());
+  }
+  result.curves.push_back(theory(gases.front()->e, end, rate));
+  return result;
+}
+
+bool has_data(const MeanSeries& series) {
+  return std::ranges::any_of(series.runs, [](const Realization& run) {
+    return run.tau.size() > 1 && std::isfinite(run.a2.back()) &&
+           std::isfinite(run.gamma_ratio.back());
+  });
+}
+
+// The same gas, prepared and sampled alike, but for the shuffles.
+bool is_twin(const MeanSeries& a, const MeanSeries& b) {
+  return a.e == b.e && a.n == b.n && a.particles == b.particles &&
+         a.sample_every == b.sample_every && a.equilibrate == b.equilibrate;
+}
+
+// A gas that is not shuffled and all its shuffled twins; of each `every` the first.
+std::vector<const MeanSeries*> with_twins(const MeanSeries& plain, const Averages& averages) {
+  std::vector<const MeanSeries*> gases{&plain};
+  for (const MeanSeries& each : averages.shuffled)
+    if (is_twin(each, plain) && has_data(each) &&
+        gases.back()->shuffled_every != each.shuffled_every)
+      gases.push_back(&each);
+  return gases;
 }
 
 }  // namespace
 
 std::optional<Plot> figure_14(const Averages& averages) {
-  for (const MeanSeries& shuffled : averages.shuffled) {
-    const auto plain = std::ranges::find_if(averages.series, [&](const MeanSeries& each) {
-      return each.e == shuffled.e && each.n == shuffled.n && each.particles == shuffled.particles;
-    });
-    if (plain == averages.series.end()) continue;
-    const double end = std::min(plain->tau.back(), shuffled.tau.back());
-    Panel a2 = panel(*plain, shuffled, &MeanSeries::a2, end);
-    Panel rate = panel(*plain, shuffled, &MeanSeries::gamma_ratio, end);
-    a2.frame = {{0.10, 0.485, 0.215, 0.96}};
-    rate.frame = {{0.59, 0.975, 0.215, 0.96}};
-    return Plot{
-        .panels = {a2, rate},
-        .caption = fmt::format("{} Mean of {} neighbouring samples.", provenance({*plain}), window),
-        .width = 960};
+  std::vector<const MeanSeries*> gases;
+  for (const MeanSeries& plain : averages.series) {
+    if (plain.e >= 1 || !has_data(plain)) continue;
+    auto here = with_twins(plain, averages);
+    if (here.size() > std::max<std::size_t>(gases.size(), 1)) gases = std::move(here);
   }
-  return std::nullopt;
+  if (gases.empty()) return std::nullopt;
+  double end = gases.front()->tau.back();
+  for (const MeanSeries* each : gases) end = std::min(end, each->tau.back());
+  Panel a2 = panel(gases, false, end);
+  Panel rate = panel(gases, true, end);
+  a2.frame = {{0.10, 0.485, 0.215, 0.96}};
+  rate.frame = {{0.59, 0.975, 0.215, 0.96}};
+  return Plot{.panels = {a2, rate},
+              .caption = fmt::format("{} From τ = {:g} on, means over Δτ = {:g}.{}",
+                                     provenance({*gases.front()}), settled, interval,
+                                     error_note({*gases.front()})),
+              .width = 960};
 }
 
 }  // namespace haff::campaign

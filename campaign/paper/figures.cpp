@@ -10,10 +10,13 @@
 #include <variant>
 
 #include "campaign/base/command_text.hpp"
+#include "campaign/base/output_files.hpp"
+#include "campaign/base/printable.hpp"
 #include "campaign/paper/agreement.hpp"
 #include "campaign/paper/figure.hpp"
 #include "campaign/paper/page.hpp"
-#include "campaign/plot/gnuplot.hpp"
+#include "campaign/plot/picture.hpp"
+#include "campaign/plot/table.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -104,40 +107,6 @@ void make_folder(const std::filesystem::path& folder) {
   }
 }
 
-// Writes tables and pictures to a folder. Without gnuplot it goes on with tables alone.
-class Drawer {
- public:
-  explicit Drawer(std::filesystem::path folder) : folder_(std::move(folder)) {
-    make_folder(folder_);
-  }
-
-  // The endings of the files written.
-  std::string draw(int id, const Plot& plot) {
-    const auto file = [&](const char* ending) {
-      return folder_ / fmt::format("figure-{:02}.{}", id, ending);
-    };
-    write_table(plot, file("csv"));
-    if (!missing_.empty()) return "csv";
-    try {
-      run_gnuplot(gnuplot_script(plot, file("svg"), Format::svg));
-      finish_svg(plot, file("svg"));
-      run_gnuplot(gnuplot_script(plot, file("png"), Format::png));
-    } catch (const GnuplotMissing& missing) {
-      missing_ = missing.what();
-      return "csv";
-    }
-    return "csv, svg, png";
-  }
-
-  // Why there are no pictures; empty if there are.
-  const std::string& missing() const { return missing_; }
-  const std::filesystem::path& folder() const { return folder_; }
-
- private:
-  std::filesystem::path folder_;
-  std::string missing_;
-};
-
 // The paper's gas is one of spheres.
 void mention_disks(const schema::Reader& store, std::ostream& report) {
   auto rows =
@@ -151,45 +120,76 @@ void mention_disks(const schema::Reader& store, std::ostream& report) {
              command_text("query \"SELECT * FROM mean_series WHERE d = 2\"", store.path()));
 }
 
+// The plot, or why there is none.
+struct Attempt {
+  std::optional<Plot> plot;
+  std::string error = {};  // empty: the store lacks its data
+};
+
+Attempt attempt(const Figure& figure, const Averages& averages) {
+  try {
+    return {figure.make(averages)};
+  } catch (const std::exception& error) {
+    return {std::nullopt, printable(error.what())};
+  }
+}
+
 }  // namespace
 
 int draw_figures(const schema::Reader& store, const FigureRequest& request, std::ostream& report) {
   const auto asked = asked_for(request.only);
   const Averages averages = read_averages(store);
-  Drawer drawer(request.out);
+  make_folder(request.out);
+  OutputFiles files;
   std::vector<FigureEntry> entries;
   std::size_t drawn = 0;
+  bool failed = false;
   for (const Figure& figure : asked) {
     const std::string head = fmt::format("figure {:>2}  {}: ", figure.id, figure.title);
-    const std::string name = fmt::format("figure-{:02}", figure.id);
+    const auto stem = request.out / fmt::format("figure-{:02}", figure.id);
     entries.push_back({.id = figure.id,
                        .title = std::string(figure.title),
                        .caption = "not drawn: the store has no finished jobs for it",
                        .published = std::string(figure.published)});
-    const auto plot = figure.make(averages);
-    if (!plot) {
+    FigureEntry& entry = entries.back();
+    const auto [plot, error] = attempt(figure, averages);
+    if (!error.empty()) {
+      entry.caption = "not drawn: " + error;
+      fmt::print(report, "{}cannot be drawn: {}\n", head, error);
+      failed = true;
+    }
+    if (!plot && error.empty())
       fmt::print(report, "{}the store has no finished jobs for it; plan, for example\n{}\n", head,
                  figure.plan);
-      continue;
+    if (!plot) continue;
+    const std::size_t before = files.written().size();
+    files.attempt(stem.string() + ".csv", [&](const auto& file) { write_table(*plot, file); });
+    draw_both(*plot, stem, files);
+    entry.caption = printable(plot->caption);
+    std::vector<std::string> endings;
+    for (std::size_t i = before; i < files.written().size(); ++i) {
+      endings.push_back(files.written()[i].extension().string().substr(1));
+      if (endings.back() != "csv" && entry.picture.empty())
+        entry.picture = files.written()[i].filename().string();
     }
-    const std::string endings = drawer.draw(figure.id, *plot);
-    entries.back().caption = plot->caption;
-    if (drawer.missing().empty()) entries.back().picture = name + ".svg";
-    fmt::print(report, "{}{} ({})\n           {}\n", head, (drawer.folder() / name).string(),
-               endings, plot->caption);
+    fmt::print(report, "{}{} ({})\n           {}\n", head, stem.string(),
+               endings.empty() ? "nothing written" : fmt::format("{}", fmt::join(endings, ", ")),
+               entry.caption);
     ++drawn;
   }
   if (request.only.empty() && drawn > 0) {
     const auto table = agreement(averages);
-    write_agreement(table, drawer.folder() / "agreement.csv");
-    write_page(entries, table, drawer.folder() / "index.html");
-    fmt::print(report, "all of them, beside paper and theory: {}\n",
-               (drawer.folder() / "index.html").string());
+    files.attempt(request.out / "agreement.csv",
+                  [&](const auto& file) { write_agreement(table, file); });
+    if (files.attempt(request.out / "index.html",
+                      [&](const auto& file) { write_page(entries, table, file); }))
+      fmt::print(report, "all of them, beside paper and theory: {}\n",
+                 (request.out / "index.html").string());
   }
-  if (!drawer.missing().empty()) fmt::print(report, "{}\n", drawer.missing());
+  files.print_missing(report);
   mention_disks(store, report);
   const bool complete = request.only.empty() ? drawn > 0 : drawn == asked.size();
-  return complete && drawer.missing().empty() ? 0 : 1;
+  return complete && !failed && files.is_complete() ? 0 : 1;
 }
 
 }  // namespace haff::campaign

@@ -29,12 +29,13 @@ struct FigureRequest {
 };
 
 // Draws, and tells `report` of each figure: its files and caption, or what the store lacks and
-// what to plan for it. Returns an exit code:
+// what to plan for it. A file that cannot be written or drawn, or comes out cut off, does not keep
+// the others from it: the report says which are missing, and why. Returns an exit code:
 //   0  every figure asked for is drawn; where none was named, at least one is
-//   1  a figure that was named is not (the store lacks its data); or there is none to draw; or
-//      gnuplot is not installed (the CSV files are written)
-// Throws UnknownFigure (bad command line), std::runtime_error if a file cannot be written or
-// gnuplot fails, and the errors of the store.
+//   1  a figure that was named is not (the store lacks its data); or there is none to draw; or a
+//      file is missing, because gnuplot is not installed, say
+// Throws UnknownFigure (bad command line), std::runtime_error if the folder cannot be made, and the
+// errors of the store.
 int draw_figures(const schema::Reader& store, const FigureRequest& request, std::ostream& report);
 
 }  // namespace haff::campaign

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <stdexcept>
+#include <sstream>
 #include <string_view>
 
 #include "campaign/base/number_text.hpp"
+#include "campaign/base/printable.hpp"
 #include "campaign/base/version.hpp"
+#include "campaign/base/write_file.hpp"
 #include "campaign/paper/figure.hpp"
 #include "campaign/results/published.hpp"
 
@@ -37,26 +38,6 @@ constexpr std::string_view style = R"(
   .yes { color: #00724f; font-weight: bold; }
   .no { color: #b34700; font-weight: bold; }
 )";
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 // A value with as many digits as its error leaves sense to: 57.49 ± 1.14, 0.9682 ± 0.0003.
 std::string number(double value, double error = Comparison::none) {
@@ -89,39 +70,40 @@ std::string table_text(const std::vector<Comparison>& table) {
     text += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"number\">{}</td><td>{}</td>"
         "<td class=\"number\">{}</td><td>{}</td>{}<td>{}</td></tr>\n",
-        escaped(row.quantity), row.e ? restitution_text(*row.e) : "",
-        row.n ? density_text(*row.n) : "", number(row.value, row.error), escaped(reference),
-        deviation(row), escaped(row.criterion), verdict(row), escaped(row.note));
+        xml_escaped(row.quantity), row.e ? restitution_text(*row.e) : "",
+        row.n ? density_text(*row.n) : "", number(row.value, row.error), xml_escaped(reference),
+        deviation(row), xml_escaped(row.criterion), verdict(row), xml_escaped(row.note));
   }
   return text + "</table></div>\n";
 }
 
 std::string figure_text(const FigureEntry& figure) {
   std::string text = fmt::format("<figure id=\"figure-{0:02}\">\n<h3>Figure {0}: {1}</h3>\n",
-                                 figure.id, escaped(figure.title));
+                                 figure.id, xml_escaped(figure.title));
   if (figure.picture.empty()) {
-    text += fmt::format("<p class=\"absent\">{}</p>\n", escaped(figure.caption));
+    text += fmt::format("<p class=\"absent\">{}</p>\n", xml_escaped(figure.caption));
   } else {
     text += fmt::format("<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a>\n", figure.picture,
-                        escaped(figure.title));
+                        xml_escaped(figure.title));
   }
   text += "<figcaption>";
-  if (!figure.picture.empty()) text += escaped(figure.caption) + "<br>\n";
+  if (!figure.picture.empty()) text += xml_escaped(figure.caption) + "<br>\n";
   return text + fmt::format("<span class=\"paper\">Published: {}</span></figcaption>\n</figure>\n",
-                            escaped(figure.published));
+                            xml_escaped(figure.published));
 }
 
 }  // namespace
 
 void write_page(const std::vector<FigureEntry>& figures, const std::vector<Comparison>& table,
                 const std::filesystem::path& file) {
-  std::ofstream page(file);
+  std::ostringstream page;
   page << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
        << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
        << "<title>Free cooling of inelastic hard spheres</title>\n<style>" << style
        << "</style>\n</head>\n<body>\n<h1>Free cooling of inelastic hard spheres</h1>\n"
-       << "<p>Figures of " << escaped(published_source) << ", drawn by haff "
-       << escaped(code_version()) << ". Lengths in diameters σ, energies in E(0), the energy per "
+       << "<p>Figures of " << xml_escaped(published_source) << ", drawn by haff "
+       << xml_escaped(code_version())
+       << ". Lengths in diameters σ, energies in E(0), the energy per "
        << "particle at the start; τ counts collisions suffered per particle.</p>\n";
   if (!table.empty()) {
     const auto judged = std::ranges::count_if(table, [](const auto& row) { return !!row.holds; });
@@ -135,8 +117,7 @@ void write_page(const std::vector<FigureEntry>& figures, const std::vector<Compa
   page << "<h2>Figures</h2>\n<div class=\"figures\">\n";
   for (const FigureEntry& figure : figures) page << figure_text(figure);
   page << "</div>\n</body>\n</html>\n";
-  page.close();
-  if (!page) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  write_file(file, page.str());
 }
 
 }  // namespace haff::campaign

@@ -10,6 +10,8 @@
 #include <memory>
 #include <system_error>
 
+#include "campaign/base/printable.hpp"
+
 namespace haff::campaign {
 namespace {
 
@@ -18,8 +20,8 @@ struct Close {
 };
 using File = std::unique_ptr<std::FILE, Close>;
 
-// A file without a name, gone when closed: gnuplot reads its script from one and complains into
-// another, so that neither side can block the other as with pipes.
+// A file without a name, gone when closed. gnuplot reads its script from one, draws into another
+// and complains into a third, so that neither side can block the other as with pipes.
 File nameless() {
   File file(std::tmpfile());
   if (!file) throw std::system_error(errno, std::generic_category(), "no temporary file");
@@ -34,10 +36,16 @@ std::string contents(std::FILE* file) {
   return text;
 }
 
+// gnuplot points at the place in the script and then says what is wrong there.
+std::string last_line(std::string text) {
+  text.erase(text.find_last_not_of("\n ") + 1);
+  return printable(text.substr(text.rfind('\n') + 1));
+}
+
 }  // namespace
 
-void run_gnuplot(const std::string& script) {
-  const File input = nameless(), output = nameless();
+std::string run_gnuplot(const std::string& script) {
+  const File input = nameless(), output = nameless(), complaints = nameless();
   if (std::fwrite(script.data(), 1, script.size(), input.get()) != script.size() ||
       std::fflush(input.get()) != 0) {
     throw std::system_error(errno, std::generic_category(), "temporary file for gnuplot");
@@ -48,9 +56,9 @@ void run_gnuplot(const std::string& script) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, fileno(input.get()), STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(complaints.get()), STDERR_FILENO);
   char name[] = "gnuplot";
-  char defaults[] = "-d";  // nobody's start-up files
+  char defaults[] = "-d";  // without start-up files
   char* arguments[] = {name, defaults, nullptr};
   pid_t child = 0;
   const int failure = posix_spawnp(&child, name, &actions, nullptr, arguments, environ);
@@ -65,8 +73,9 @@ void run_gnuplot(const std::string& script) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    throw std::runtime_error("gnuplot failed: " + contents(output.get()));
+    throw std::runtime_error("gnuplot failed: " + last_line(contents(complaints.get())));
   }
+  return contents(output.get());
 }
 
 }  // namespace haff::campaign

@@ -11,8 +11,9 @@ struct GnuplotMissing : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Waits for its end. Throws GnuplotMissing, or std::runtime_error with gnuplot's own words if it
-// fails. Warnings, of fonts say, are not errors.
-void run_gnuplot(const std::string& script);
+// Runs the script to its end and returns what it writes to its standard output: the picture, where
+// the script sets no output. Throws GnuplotMissing, or std::runtime_error with gnuplot's own words
+// if it fails. Warnings, of fonts say, are not errors.
+std::string run_gnuplot(const std::string& script);
 
 }  // namespace haff::campaign

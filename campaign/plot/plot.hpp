@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +36,8 @@ struct Curve {
   int symbol = 7;      // gnuplot's point type
   double size = 0.55;  // of symbols, in gnuplot's unit
   double width = 1.8;  // of lines [pt]
+
+  double error_at(std::size_t i) const;  // NaN: none
 };
 
 // Errors are drawn as bars on symbols and as a band behind lines.
@@ -64,6 +65,8 @@ struct Panel {
   std::optional<std::array<double, 4>> frame = {};
 };
 
+bool has_arrows(const Panel& panel);
+
 struct Plot {
   std::vector<Panel> panels;  // one without a frame fills the picture; same columns
   std::string caption = {};   // plain text
@@ -83,24 +86,5 @@ double decade_below(double value);
 
 // The nearest of 1, 2, 5, 10 times a power of ten from above: a distance between tics.
 double round_step(double at_least);
-
-// Colours that stay apart for the colour-blind and in grey: M. Okabe and K. Ito (2008) for up to
-// six curves, shades for more.
-std::string colour(std::size_t place, std::size_t of);
-
-// An even walk through viridis, from dark to light, for curves that have an order.
-std::string shade(std::size_t place, std::size_t of);
-
-// The table: a line of column names, then a row a point, reals with 17 digits, absent values
-// empty. Arrows add two columns. Throws std::runtime_error if the file cannot be written.
-void write_table(const Plot& plot, const std::filesystem::path& file);
-
-enum class Format { svg, png };
-std::string gnuplot_script(const Plot& plot, const std::filesystem::path& picture, Format format);
-
-// What gnuplot leaves undone in its SVG: blanks next to a change of font, which some viewers drop,
-// are kept, and the caption is the picture's title, for those who listen to it. Captions hold no
-// character that XML reserves.
-void finish_svg(const Plot& plot, const std::filesystem::path& picture);
 
 }  // namespace haff::campaign

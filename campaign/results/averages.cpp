@@ -33,12 +33,12 @@ constexpr const char* plain_gas = " d = 3 AND effects = '{}'";
 constexpr const char* shuffled_gas =
     " d = 3 AND (SELECT group_concat(key) FROM json_each(effects)) = 'shuffle'";
 
-// What tells series apart: columns 4 to 9 those of the same gas that were prepared or sampled in
-// other ways.
+// What tells series apart: the whole identity of a job but its seed. Of the columns from the fourth
+// on, those of gases that were prepared, changed or sampled in other ways.
 constexpr const char* key_columns =
-    "e, n, particles, sample_every, equilibrate, precision, observables, "
+    "e, n, particles, sample_every, equilibrate, effects, precision, observables, "
     "coalesce(profiles_every, 0), coalesce(fields_at, '')";
-constexpr std::size_t keys = 9;
+constexpr std::size_t keys = 10;
 
 schema::Row key_of(const schema::Row& row) {
   return {row.begin(), row.begin() + keys};
@@ -47,7 +47,8 @@ schema::Row key_of(const schema::Row& row) {
 std::map<schema::Row, MeanSeries> read_means(const schema::Reader& store, const char* gas) {
   schema::Query rows = store.query(
       fmt::format("SELECT {}, realizations, tau, temperature, temperature_se, gamma_ratio,"
-                  " gamma_ratio_se, a2, a2_se, a3, a3_se, a4, a4_se FROM mean_series WHERE {}",
+                  " gamma_ratio_se, a2, a2_se, a3, a3_se, a4, a4_se,"
+                  " effects ->> '$.shuffle.every' FROM mean_series WHERE {}",
                   key_columns, gas));
   std::map<schema::Row, MeanSeries> all;
   while (const auto row = rows.next()) {
@@ -57,6 +58,8 @@ std::map<schema::Row, MeanSeries> read_means(const schema::Reader& store, const 
     series.n = real(r[1]);
     series.particles = integer(r[2]);
     series.sample_every = real(r[3]);
+    series.equilibrate = real(r[4]);
+    series.effects = std::get<std::string>(r[5]);
     series.realizations.push_back(integer(r[keys]));
     series.tau.push_back(real(r[keys + 1]));
     std::size_t column = keys + 2;
@@ -65,6 +68,7 @@ std::map<schema::Row, MeanSeries> read_means(const schema::Reader& store, const 
       (series.*each).value.push_back(real(r[column++]));
       (series.*each).error.push_back(real(r[column++]));
     }
+    if (const double every = real(r[column]); every > 0) series.shuffled_every = every;
   }
   return all;
 }
@@ -121,6 +125,7 @@ Realization read_realization(const schema::Reader& store, std::int64_t job_id, s
   for (const schema::Sample& sample : store.samples(job_id)) {
     run.tau.push_back(sample.tau);
     run.temperature.push_back(sample.temperature.value_or(none));
+    run.gamma_ratio.push_back(sample.gamma_ratio.value_or(none));
     run.a2.push_back(sample.a2.value_or(none));
     run.largest_cluster.push_back(sample.largest_cluster.value_or(none));
   }
@@ -128,11 +133,12 @@ Realization read_realization(const schema::Reader& store, std::int64_t job_id, s
 }
 
 // Adds the runs that each mean is of, and counts those that are missing.
-void read_runs(const schema::Reader& store, std::map<schema::Row, MeanSeries>& all) {
+void read_runs(const schema::Reader& store, const char* gas,
+               std::map<schema::Row, MeanSeries>& all) {
   schema::Query rows = store.query(
       fmt::format("SELECT {}, job_id, seed, status, coalesce(code_version, '') FROM jobs"
                   " WHERE kind = 'cooling' AND {} ORDER BY seed",
-                  key_columns, plain_gas));
+                  key_columns, gas));
   while (const auto row = rows.next()) {
     const auto& r = *row;
     const auto found = all.find(key_of(r));
@@ -191,13 +197,17 @@ const MeanProfile* MeanSeries::profile(const std::string& name, double at) const
 Averages read_averages(const schema::Reader& store) {
   auto all = read_means(store, plain_gas);
   read_profiles(store, all);
-  read_runs(store, all);
+  read_runs(store, plain_gas, all);
+  auto shuffled = read_means(store, shuffled_gas);
+  read_runs(store, shuffled_gas, shuffled);
   Averages averages{.series = {}, .shuffled = {}, .velocity_field = read_velocity_field(store)};
   for (auto& entry : all) averages.series.push_back(std::move(entry.second));
-  for (auto& entry : read_means(store, shuffled_gas))
-    averages.shuffled.push_back(std::move(entry.second));
+  for (auto& entry : shuffled) averages.shuffled.push_back(std::move(entry.second));
   std::ranges::stable_sort(averages.series, {},
                            [](const MeanSeries& s) { return std::tuple(s.n, s.particles, s.e); });
+  std::ranges::stable_sort(averages.shuffled, {}, [](const MeanSeries& s) {
+    return std::tuple(s.e, s.n, s.particles, s.shuffled_every);
+  });
   return averages;
 }
 

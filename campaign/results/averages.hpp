@@ -1,6 +1,6 @@
 // Averages over realizations, as the figures need them: the store's view mean_series in memory,
 // with the realizations it averages, for smooth spheres with constant restitution in three
-// dimensions; and the means of those that are shuffled, too.
+// dimensions, and for the same with their velocities shuffled.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,9 @@ struct Realization {
   std::int64_t job_id = 0;
   std::uint64_t seed = 0;
   std::optional<double> tau_c = {};
-  std::vector<double> tau = {}, temperature = {}, a2 = {};  // NaN where not measured
-  std::vector<double> largest_cluster = {};                 // likewise
+  // Units as in the table samples; NaN where not measured.
+  std::vector<double> tau = {}, temperature = {}, gamma_ratio = {}, a2 = {};
+  std::vector<double> largest_cluster = {};
 };
 
 // A curve over realizations, names and units as in the table profiles.
@@ -44,6 +45,9 @@ struct MeanSeries {
   double n = 0;
   std::int64_t particles = 0;
   double sample_every = 0;
+  double equilibrate = 0;
+  std::string effects = "{}";                   // as in the table jobs
+  std::optional<double> shuffled_every = {};    // [tau]
   std::vector<std::int64_t> realizations = {};  // that have this sample
   std::vector<double> tau = {};
   Means temperature = {}, gamma_ratio = {}, a2 = {}, a3 = {}, a4 = {};
@@ -81,8 +85,8 @@ struct MeanTauC {
 };
 
 struct Averages {
-  std::vector<MeanSeries> series;                    // by n, particles, e
-  std::vector<MeanSeries> shuffled = {};             // of gases whose velocities are shuffled
+  std::vector<MeanSeries> series;         // by n, particles, e
+  std::vector<MeanSeries> shuffled = {};  // velocities shuffled; by e, n, particles, every
   std::optional<VelocityField> velocity_field = {};  // of figure 8, if the store has one
 };
 

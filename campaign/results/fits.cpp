@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "analysis/cooling.hpp"
@@ -18,7 +19,17 @@ constexpr double late_until = 2.5;  // tau_c: a shorter stretch tells no exponen
 // Fewer samples than this tell b from no other.
 constexpr std::size_t fewest_samples = 10;
 
-std::optional<analysis::Estimate> estimate_of(const std::vector<double>& values) {
+// What each realization gives; those that a fit cannot take are left out, and the others stay.
+template <class Fit>
+std::optional<analysis::Estimate> over_realizations(const MeanSeries& series, Fit&& fit) {
+  std::vector<double> values;
+  for (const Realization& run : series.runs) {
+    try {
+      if (const std::optional<double> value = fit(run)) values.push_back(*value);
+    } catch (const std::runtime_error&) {     // did not converge
+    } catch (const std::invalid_argument&) {  // energies that no gas has
+    }
+  }
   if (values.empty()) return std::nullopt;
   return analysis::estimate(values);
 }
@@ -30,31 +41,28 @@ bool has_temperature(const Realization& run) {
 }  // namespace
 
 std::optional<analysis::Estimate> fitted_cutoff(const MeanSeries& series) {
-  std::vector<double> fitted;
-  for (const Realization& run : series.runs) {
-    if (!has_temperature(run)) continue;
+  return over_realizations(series, [&](const Realization& run) -> std::optional<double> {
+    if (!has_temperature(run)) return std::nullopt;
     const auto end = run.tau_c ? std::ranges::upper_bound(run.tau, *run.tau_c) : run.tau.end();
     const auto samples = static_cast<std::size_t>(end - run.tau.begin());
-    if (samples < fewest_samples) continue;
+    if (samples < fewest_samples) return std::nullopt;
     std::vector<double> energy(run.temperature.begin(),
                                run.temperature.begin() + (end - run.tau.begin()));
     for (double& each : energy) each /= analysis::initial_temperature();
-    fitted.push_back(analysis::fit_cutoff({.e = series.e, .n = series.n},
-                                          std::span(run.tau).first(samples), energy)
-                         .b);
-  }
-  return estimate_of(fitted);
+    return analysis::fit_cutoff({.e = series.e, .n = series.n}, std::span(run.tau).first(samples),
+                                energy)
+        .b;
+  });
 }
 
 std::optional<analysis::Estimate> late_exponent(const MeanSeries& series) {
-  std::vector<double> exponents;
-  for (const Realization& run : series.runs) {
-    if (!has_temperature(run) || !run.tau_c || run.tau.back() < late_until * *run.tau_c) continue;
-    exponents.push_back(
-        -analysis::late_exponent(run.tau, run.temperature, late_from * *run.tau_c, run.tau.back())
-             .exponent);
-  }
-  return estimate_of(exponents);
+  return over_realizations(series, [](const Realization& run) -> std::optional<double> {
+    if (!has_temperature(run) || !run.tau_c || run.tau.back() < late_until * *run.tau_c)
+      return std::nullopt;
+    return -analysis::late_exponent(run.tau, run.temperature, late_from * *run.tau_c,
+                                    run.tau.back())
+                .exponent;
+  });
 }
 
 }  // namespace haff::campaign

@@ -1,5 +1,6 @@
 // What is fitted to each realization by itself and then averaged: the spread over realizations is
-// an honest error, that of one fit to correlated samples is not.
+// an honest error, that of one fit to correlated samples is not. A realization that a fit cannot
+// take is left out: the estimate's count says how many there were.
 #pragma once
 
 #include <optional>

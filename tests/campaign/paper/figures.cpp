@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <initializer_list>
@@ -112,22 +113,89 @@ TEST_CASE("figures: an empty store gives none, and says what to plan") {
 
 TEST_CASE("figures: a number the paper does not have is refused") {
   const TemporaryFolder folder;
-  CHECK_THROWS_AS(draw(first_campaign(), folder.path(), {15}), UnknownFigure);
+  CHECK_THROWS_AS(draw(first_campaign(), folder.path(), {99}), UnknownFigure);
 }
+
+namespace {
+
+// What is drawn where `gnuplot` is this shell script; the true one is $gnuplot.
+Drawn draw_with(const std::string& script, const std::filesystem::path& out,
+                std::vector<int> only = {}) {
+  const TemporaryFolder bin;
+  const char* set = std::getenv("PATH");
+  const std::string path = set != nullptr ? set : "/usr/bin:/bin";
+  if (!script.empty()) {
+    std::ofstream(bin / "gnuplot") << "#!/bin/sh\nPATH=" << path << "\n" << script << "\n";
+    std::filesystem::permissions(bin / "gnuplot", std::filesystem::perms::owner_all);
+  }
+  ::setenv("PATH", bin.path().c_str(), 1);
+  const auto drawn = draw(first_campaign(), out, std::move(only));
+  ::setenv("PATH", path.c_str(), 1);
+  return drawn;
+}
+
+std::size_t count(const std::string& word, const std::string& text) {
+  std::size_t found = 0;
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+  return found;
+}
+
+}  // namespace
 
 TEST_CASE("figures: without gnuplot the tables are written and one message says what to install") {
   const TemporaryFolder folder;
-  const char* set = std::getenv("PATH");
-  const std::string path = set != nullptr ? set : "";
-  ::setenv("PATH", folder.path().c_str(), 1);
-  const auto drawn = draw(first_campaign(), folder.path());
-  ::setenv("PATH", path.c_str(), 1);
+  const auto drawn = draw_with("", folder.path());
   CHECK(drawn.code == 1);
-  CHECK(std::filesystem::exists(folder.path() / "figure-01.csv"));
-  CHECK_FALSE(std::filesystem::exists(folder.path() / "figure-01.svg"));
-  const auto first = drawn.report.find("apt-get install gnuplot-nox");
-  CHECK(first != std::string::npos);
-  CHECK(drawn.report.find("apt-get install", first + 1) == std::string::npos);
+  CHECK(std::filesystem::exists(folder / "figure-01.csv"));
+  CHECK(std::filesystem::exists(folder / "index.html"));
+  CHECK_FALSE(std::filesystem::exists(folder / "figure-01.svg"));
+  CHECK(count("apt-get install gnuplot-nox", drawn.report) == 1);
+}
+
+TEST_CASE("figures: a picture that is cut off is not left there, and the rest is drawn") {
+  const TemporaryFolder folder;
+  const auto drawn = draw_with(
+      R"(cat > "$0.in"; grep -q pngcairo "$0.in" && gnuplot -d "$0.in" | head -c 2000 || gnuplot -d "$0.in")",
+      folder.path(), {1, 2});
+  CHECK(drawn.code == 1);
+  CHECK(drawn.report.find("figure-01 (csv, svg)") != std::string::npos);
+  CHECK(drawn.report.find("figure-02 (csv, svg)") != std::string::npos);
+  CHECK(drawn.report.find("figure-02.png: gnuplot's picture is cut off") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder / "figure-01.png"));
+  CHECK(contents(folder / "figure-02.svg").find("</svg>") != std::string::npos);
+}
+
+TEST_CASE("figures: a gnuplot that draws nothing, and one without pngcairo, are reported") {
+  const TemporaryFolder folder;
+  const auto nothing = draw_with("cat > /dev/null", folder.path(), {1});
+  CHECK(nothing.code == 1);
+  CHECK(nothing.report.find("gnuplot has drawn nothing") != std::string::npos);
+  const auto no_cairo = draw_with(R"(sed s/pngcairo/pngnone/ | gnuplot -d)", folder.path());
+  CHECK(no_cairo.code == 1);
+  CHECK(no_cairo.report.find("figure-13 (csv, svg)") != std::string::npos);
+  CHECK(no_cairo.report.find("gnuplot failed: ") != std::string::npos);
+  CHECK(contents(folder / "index.html").find("figure-13.svg") != std::string::npos);
+}
+
+TEST_CASE("figures: a picture of an earlier time does not pass for one that failed") {
+  const TemporaryFolder folder;
+  CHECK(draw(first_campaign(), folder.path(), {1}).code == 0);
+  CHECK(draw_with("exit 1", folder.path(), {1}).code == 1);
+  CHECK_FALSE(std::filesystem::exists(folder / "figure-01.png"));
+}
+
+TEST_CASE("figures: a damaged field ends figure 8 alone") {
+  Averages averages = read_averages(first_campaign());
+  REQUIRE(averages.velocity_field);
+  auto& field = averages.velocity_field->field;
+  CHECK(figure_08(averages));
+  for (const int cells : {68, 4, 17, 15, 0, -1, 1 << 30}) {  // 16 in truth
+    field.cells = cells;
+    CHECK_THROWS_WITH(figure_08(averages), doctest::Contains("damaged"));
+  }
+  field.cells = 16;
+  field.components = 1;
+  CHECK_THROWS_WITH(figure_08(averages), doctest::Contains("damaged"));
 }
 
 TEST_CASE("figures: a folder that cannot be made is an error that names it") {
@@ -192,4 +260,33 @@ TEST_CASE("figure 7: smoothed over the paper's windows, against tau/tau_c") {
   const Realization& run = chosen.front().runs.front();
   CHECK(curve.x[10] == doctest::Approx(10 / *run.tau_c));
   CHECK(curve.y[10] == doctest::Approx((run.a2[9] + run.a2[10] + run.a2[11]) / 3));
+}
+
+TEST_CASE("figure 14: every shuffled series is a curve of its own") {
+  auto store = schema::Store::create(":memory:");
+  for (const char* effects : {"{}", R"({"shuffle":{"every":1.0}})", R"({"shuffle":{"every":5.0}})"})
+    add_finished(store,
+                 {.e = 0.85,
+                  .n = 0.4,
+                  .particles = 2000,
+                  .effects = effects,
+                  .observables = {"laguerre", "temperature"}},
+                 3, 40);
+  const auto averages = read_averages(store);
+  REQUIRE(averages.shuffled.size() == 2);
+  const auto plot = figure_14(averages);
+  REQUIRE(plot);
+  const auto& curves = plot->panels.front().curves;
+  REQUIRE(curves.size() == 4);
+  CHECK(curves[0].name == "not shuffled");
+  CHECK(curves[1].name == "shuffled every 1");
+  CHECK(curves[2].name == "shuffled every 5");
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MeanSeries& series = k == 0 ? averages.series.front() : averages.shuffled[k - 1];
+    CHECK(curves[k].x.front() == 0);
+    // A mean of the same three numbers, summed in the same order.
+    CHECK(curves[k].y.front() == doctest::Approx(series.a2.value.front()).epsilon(1e-12));
+    CHECK(curves[k].error.front() > 0);
+    CHECK(std::ranges::is_sorted(curves[k].x));
+  }
 }

@@ -10,6 +10,9 @@
 #include <sstream>
 #include <string>
 
+#include "campaign/plot/colours.hpp"
+#include "campaign/plot/script.hpp"
+#include "campaign/plot/table.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace haff::campaign;
@@ -56,9 +59,9 @@ TEST_CASE("plot: a table that cannot be written is an error that names it") {
 
 TEST_CASE("plot: a script draws every curve, errors only where there are some") {
   Plot plot = two_curves();
-  CHECK(gnuplot_script(plot, "p.svg", Format::svg).find("filledcurves") != std::string::npos);
+  CHECK(gnuplot_script(plot, PictureFormat::svg).find("filledcurves") != std::string::npos);
   plot.panels[0].curves[0].error.clear();
-  const std::string bare = gnuplot_script(plot, "p.svg", Format::svg);
+  const std::string bare = gnuplot_script(plot, PictureFormat::svg);
   CHECK(bare.find("filledcurves") == std::string::npos);
   CHECK(bare.find("$curve0 using 1:2 with lines") != std::string::npos);
   CHECK(bare.find("$curve1 using 1:2 with lines") != std::string::npos);
@@ -69,14 +72,19 @@ TEST_CASE("plot: logarithmic axes leave out what they cannot show") {
   plot.panels[0].y.logarithmic = true;
   plot.panels[0].curves[0].y = {-1, 0.25};
   plot.panels[0].curves[0].error = {0.1, 0.5};  // reaches below zero
-  const std::string script = gnuplot_script(plot, "p.png", Format::png);
+  const std::string script = gnuplot_script(plot, PictureFormat::png);
   CHECK(script.find("\n0 -1 ") == std::string::npos);
   CHECK(script.find("\n1 0.25 0.00025 0.75\n") != std::string::npos);
 }
 
-TEST_CASE("plot: a quote in a path does not end the path") {
-  CHECK(gnuplot_script(two_curves(), "it's.svg", Format::svg).find("'it''s.svg'") !=
-        std::string::npos);
+TEST_CASE("plot: a caption cannot become a command") {
+  Plot plot = two_curves();
+  plot.caption = "x\nEND\nsystem \"touch pwned\"\n#";
+  const std::string script = gnuplot_script(plot, PictureFormat::png);
+  CHECK(script.find("\nsystem") == std::string::npos);
+  CHECK(script.find("\nEND\nsystem") == std::string::npos);
+  // In the block of data; gnuplot itself reads a doubled backslash as one.
+  CHECK(script.find("\tx\\\\x0aEND\\\\x0asystem") != std::string::npos);
 }
 
 TEST_CASE("plot: symbols are thinned in the picture, not in the table") {
@@ -88,7 +96,7 @@ TEST_CASE("plot: symbols are thinned in the picture, not in the table") {
   }
   curve.look = Look::symbols;
   plot.panels = {{.x = {.column = "x"}, .y = {.column = "y"}, .curves = {curve}}};
-  const std::string script = gnuplot_script(plot, "p.png", Format::png);
+  const std::string script = gnuplot_script(plot, PictureFormat::png);
   CHECK(std::count(script.begin(), script.end(), '\n') < 100);
   const std::string table = table_of(plot);
   CHECK(std::count(table.begin(), table.end(), '\n') == 1001);

@@ -54,3 +54,11 @@ TEST_CASE("fits: the late exponent is that of T beyond 2 tau_c") {
   series.runs = {run};
   CHECK(late_exponent(series)->mean == doctest::Approx(3));
 }
+
+TEST_CASE("fits: a realization that cannot be fitted does not end those of the others") {
+  MeanSeries series = synthetic(0.8, 3, 90);
+  for (double& each : series.runs[1].temperature) each = HUGE_VAL;  // no gas
+  const auto fit = fitted_cutoff(series);
+  REQUIRE(fit);
+  CHECK(fit->count == 2);
+}
