@@ -6,16 +6,18 @@
 #include <string>
 #include <utility>
 
-#include "engine/growth.hpp"
-#include "engine/random.hpp"
+#include "engine/particles/spatial_order.hpp"
+#include "engine/particles/synchronize.hpp"
 #include "engine/simulation.hpp"
-#include "engine/synchronize.hpp"
+#include "engine/start/growth.hpp"
+#include "engine/start/lattice.hpp"
+#include "engine/support/random.hpp"
 
 namespace haff::engine {
 namespace {
 
-// By Newton's method from above, where every step decreases until rounding stops it: std::cbrt is
-// not correctly rounded, and its last bit would be the trajectory's.
+// Newton's method from above, where every step decreases the value until rounding stops it.
+// std::cbrt is not correctly rounded, and its last bit would end up in the trajectory.
 double cube_root(double x) {
   double root = std::max(x, 1.0);
   for (;;) {
@@ -25,72 +27,6 @@ double cube_root(double x) {
   }
 }
 
-// Sites of a face-centred cubic lattice with `cells` cubic cells along an axis.
-Vector lattice_site(std::uint64_t site, std::uint64_t cells, double spacing) {
-  static constexpr Vector basis[4] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
-  const std::uint64_t cell = site / 4;
-  const Vector& offset = basis[site % 4];
-  const Vector corner{static_cast<double>(cell % cells), static_cast<double>(cell / cells % cells),
-                      static_cast<double>(cell / (cells * cells))};
-  Vector position;
-  for (std::size_t k = 0; k < 3; ++k) position[k] = (corner[k] + offset[k] + 0.25) * spacing;
-  return position;
-}
-
-std::uint64_t cells_along(std::uint32_t count) {
-  std::uint64_t cells = 1;
-  while (4 * cells * cells * cells < count) ++cells;
-  return cells;
-}
-
-bool lattice_fits(std::uint32_t count, const Box& box) {
-  return box.side / static_cast<double>(cells_along(count)) / std::sqrt(2.0) >= 1;
-}
-
-// A triangular lattice, stretched to fit a square: cells of two sites, the second in the middle.
-struct Triangular {
-  std::uint64_t columns = 0;
-  std::uint64_t rows = 0;
-  double width = 0;  // of a cell
-  double height = 0;
-  double distance = 0;  // of nearest neighbours
-};
-
-// With enough sites for so many disks, nearest neighbours as far apart as can be.
-Triangular triangular(std::uint32_t count, const Box& box) {
-  Triangular best;
-  for (std::uint64_t columns = 1; (columns - 1) * (columns - 1) < count; ++columns) {
-    const std::uint64_t rows = (count + 2 * columns - 1) / (2 * columns);
-    const double width = box.side / static_cast<double>(columns);
-    const double height = box.side / static_cast<double>(rows);
-    const double diagonal = std::sqrt(width * width + height * height);
-    const double distance = std::min({width, height, 0.5 * diagonal});
-    if (distance > best.distance) best = {columns, rows, width, height, distance};
-  }
-  return best;
-}
-
-std::vector<Vector> triangular_positions(std::uint32_t count, const Triangular& lattice) {
-  std::vector<Vector> positions(count);
-  for (std::uint64_t k = 0; k < count; ++k) {  // vacant sites are spread evenly
-    const std::uint64_t site = k * 2 * lattice.columns * lattice.rows / count;
-    const std::uint64_t cell = site / 2;
-    const double offset = site % 2 == 0 ? 0.25 : 0.75;
-    positions[k] = {(static_cast<double>(cell % lattice.columns) + offset) * lattice.width,
-                    (static_cast<double>(cell / lattice.columns) + offset) * lattice.height, 0};
-  }
-  return positions;
-}
-
-std::vector<Vector> lattice_positions(std::uint32_t count, const Box& box) {
-  const std::uint64_t cells = cells_along(count);
-  const std::uint64_t sites = 4 * cells * cells * cells;
-  std::vector<Vector> positions(count);
-  for (std::uint64_t k = 0; k < count; ++k)  // vacant sites are spread evenly
-    positions[k] = lattice_site(k * sites / count, cells, box.side / static_cast<double>(cells));
-  return positions;
-}
-
 template <class Masses>
 void set_energy(std::vector<Particle>& particles, double energy, const Masses& masses) {
   const double factor = std::sqrt(energy / kinetic_energy(particles, masses));
@@ -98,7 +34,7 @@ void set_energy(std::vector<Particle>& particles, double energy, const Masses& m
     for (double& v : p.velocity) v *= factor;
 }
 
-// All species at one temperature.
+// Gaussian velocities; all species have the same temperature.
 template <class Masses>
 void draw_velocities(std::vector<Particle>& particles, std::uint64_t seed, int d,
                      const Masses& masses) {
@@ -110,22 +46,11 @@ void draw_velocities(std::vector<Particle>& particles, std::uint64_t seed, int d
   set_energy(particles, 1, masses);
 }
 
-// Who is where: species at random (R. Durstenfeld's shuffle).
+// Puts the species at random places (R. Durstenfeld's shuffle).
 void mix(std::vector<Particle>& particles, std::uint64_t seed) {
   Random random(seed, Stream::mixture);
   for (std::size_t k = particles.size() - 1; k > 0; --k)
     std::swap(particles[k].id, particles[random.below(k + 1)].id);
-}
-
-// Where the particles of a new gas are.
-std::vector<Vector> initial_positions(std::uint32_t count, const Box& box, std::uint64_t seed) {
-  if (box.d == 2) {
-    const Triangular lattice = triangular(count, box);
-    if (lattice.distance >= 1) return triangular_positions(count, lattice);
-  } else if (lattice_fits(count, box)) {
-    return lattice_positions(count, box);
-  }
-  return grown_positions(count, box, seed);
 }
 
 }  // namespace
@@ -133,7 +58,8 @@ std::vector<Vector> initial_positions(std::uint32_t count, const Box& box, std::
 State initial_state(double n, std::uint32_t count, std::uint64_t seed, int d,
                     const std::map<std::string, Parameters>& effects) {
   const Box box(d == 2 ? std::sqrt(count / n) : cube_root(count / n), d);
-  const std::vector<Vector> positions = initial_positions(count, box, seed);
+  const auto lattice = lattice_positions(count, box);
+  const std::vector<Vector> positions = lattice ? *lattice : grown_positions(count, box, seed);
   std::vector<Particle> particles(count);
   for (std::uint32_t k = 0; k < count; ++k) {
     particles[k].position = positions[k];

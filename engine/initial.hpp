@@ -9,16 +9,16 @@
 
 namespace haff::engine {
 
-// N spheres at number density n in a periodic cube, on a face-centred cubic lattice where one
-// fits and grown into place (Lubachevsky and Stillinger) where none does; disks (d = 2) in a
-// square, on a triangular lattice or grown. Kinetic energy per particle 1. Depends on (n,
-// particles, seed, d) only, and on a mixture if there is one among the model's effects: it decides
-// who is small and light. Throws Breakdown if growth jams below n.
+// Spheres at number density n in a periodic cube, on a face-centred cubic lattice if it fits, and
+// grown into place (Lubachevsky and Stillinger) if it does not; or disks (d = 2) in a square, on a
+// triangular lattice or grown. The kinetic energy per particle is 1. The state depends only on
+// (n, particles, seed, d) and, if the model's effects name a mixture, on that: it decides which
+// particles are small and light. Throws std::invalid_argument if growth jams below n.
 State initial_state(double n, std::uint32_t particles, std::uint64_t seed, int d = 3,
                     const std::map<std::string, Parameters>& effects = {});
 
-// The same configuration as the start of a new run: velocities scaled so that the kinetic energy
-// per particle is exactly 1 (to rounding), clocks and tallies at zero.
+// The same configuration as the start of a new run: the velocities are scaled so that the kinetic
+// energy per particle is 1 (up to rounding), and clocks and tallies are zero.
 State restarted(const State& state);
 
 }  // namespace haff::engine

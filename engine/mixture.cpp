@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "engine/parameters.hpp"
+#include "engine/support/parameters.hpp"
 
 namespace haff::engine {
 namespace {
@@ -28,7 +28,7 @@ Mixture mixture_of(const Parameters& parameters, std::uint32_t particles) {
   return mixture;
 }
 
-// What is no mixture comes out as one without species 1, which soundness.cpp refuses.
+// An invalid entry yields a mixture without species 1, which soundness.cpp refuses.
 std::optional<Mixture> mixture_in(const State& state) {
   const auto found = state.memory.find(key);
   if (found == state.memory.end()) return std::nullopt;
@@ -46,7 +46,7 @@ void note(const Mixture& mixture, State& state) {
 double relative_rate(const Mixture& mixture, int d, std::uint32_t particles) {
   const double second = 1 - static_cast<double>(mixture.first) / particles;
   const double first = 1 - second;
-  // How wide a target: a disk of radius sigma_ab, or among disks its diameter.
+  // The cross section: a disk of radius sigma_ab; in two dimensions, its diameter.
   const auto target = [&](double contact) { return d == 2 ? contact : contact * contact; };
   return first * first +
          2 * first * second * target(0.5 * (1 + mixture.diameter)) *

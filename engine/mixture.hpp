@@ -1,9 +1,9 @@
 // A binary mixture: spheres, or disks, of two diameters and masses.
 //
-// Species 1 is the larger one, and gives the units of length and mass; species 2 has diameter
-// diameter_ratio <= 1 and mass mass_ratio. Which species a particle is of follows from its id, so
-// nobody carries it. Energies are m v^2 / 2; the temperature of all is (m/d) <v^2> averaged over
-// all particles, that of a species the same over its own.
+// Species 1 is the larger one and defines the units of length and mass; species 2 has the diameter
+// diameter_ratio <= 1 and the mass mass_ratio. The species of a particle follows from its id, so no
+// record holds it. The kinetic energy is m v^2 / 2; the temperature is <m v^2> / d, averaged over
+// all particles, or over one species for the temperature of that species.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 namespace haff::engine {
 
 struct Mixture {
-  std::uint32_t first = 0;  // so many particles, those with the smallest ids, are of species 1
+  std::uint32_t first = 0;  // the number of particles of species 1: those with the smallest ids
   double diameter = 1;      // of species 2 [sigma_1]
   double mass = 1;          // of species 2 [m_1]
 
@@ -35,7 +35,7 @@ struct Mixture {
 // std::invalid_argument if one is missing or out of range, or a species has no particle.
 Mixture mixture_of(const std::map<std::string, double>& parameters, std::uint32_t particles);
 
-// A state of a mixture says so in its memory.
+// The mixture that a state records in its memory, if it is one; and how it is recorded.
 std::optional<Mixture> mixture_in(const State& state);
 void note(const Mixture& mixture, State& state);
 

@@ -1,11 +1,11 @@
-// The simulation of one gas: give it a state, let it collide, look at it, take the state back.
+// The simulation of one gas: it starts from a state, runs, can be observed, and returns its state.
 //
 //   Simulation gas({.restitution = 0.8}, state);
 //   gas.run_to(collisions_at(tau, N));
 //
-// The trajectory depends on the state and the model alone: not on how run_to() was called, on
-// the SIMD width, or on the size of cells. Stopping at a synchronization, storing state() and
-// starting again from it continues the same trajectory bit for bit.
+// The trajectory depends only on the state and the model, not on how run_to() was called, on the
+// SIMD width, or on the size of the cells. A run that is stopped at a synchronization and started
+// again from its state() continues the same trajectory bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,9 @@ namespace haff::engine {
 
 using Parameters = std::map<std::string, double>;
 
-// How the restitution coefficient depends on the collision: a law of laws.hpp by its name, with
-// its parameters, e.g. {"tc", {{"t_c", 1e-4}}}.
+// How the restitution coefficient depends on the collision: a model in
+// restitution/restitution_models.hpp by its name, with its parameters, for example
+// {"tc", {{"t_c", 1e-4}}}.
 struct RestitutionLaw {
   std::string name = "constant";
   Parameters parameters = {};
@@ -33,28 +34,30 @@ struct RestitutionLaw {
 struct Model {
   double restitution = 1;  // e, normal
   RestitutionLaw law = {};
-  // What else a scene asks for, by its name with its parameters: {{"shuffle", {{"every", 1}}}}.
+  // Further effects by name, with their parameters: {{"shuffle", {{"every", 1}}}}.
   std::map<std::string, Parameters> effects = {};
-  std::uint64_t seed = 0;  // of the random numbers that effects draw
+  std::uint64_t seed = 0;  // of the random numbers of effects
 };
 
-// Which implementation looks for contacts. All give the same bits.
-enum class Prediction { simd, scalar };
+// Which implementation searches for contacts. All give the same bits.
+enum class SearchBackend { simd, scalar };
 
-// What happened, by kind. Speed is the price of these; the trajectory is made by collisions alone.
+// The number of events by kind. They determine the cost; collisions alone determine the trajectory.
 struct Events {
   std::int64_t collisions = 0;
   std::int64_t crossings = 0;  // a particle entered another cell
-  std::int64_t stale = 0;      // the expected partner had collided meanwhile: looked again
+  std::int64_t stale = 0;      // the expected partner had collided meanwhile: a new search
 };
 
-// The physics has broken: overlap, NaN, time running backwards. The message says where.
-struct Breakdown : std::runtime_error {
+// The simulation has become physically impossible: an overlap, a NaN, a violated conservation law.
+// The message says what and where.
+struct PhysicsError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Inelastic collapse: some particles collide infinitely often within a finite time (watchdog.hpp).
-// Not an error of the simulation, but the end of what constant restitution can say.
+// Inelastic collapse: some particles collide infinitely often within a finite time
+// (loop/watchdog.hpp). This is not an error of the simulation: a gas of constant restitution has no
+// continuation here.
 struct Collapse : std::runtime_error {
   Collapse(const std::string& message, std::vector<std::uint32_t> ids, const Vector& at,
            std::int64_t collision)
@@ -62,51 +65,51 @@ struct Collapse : std::runtime_error {
 
   std::vector<std::uint32_t> particles;  // ids, sorted
   Vector place;                          // of one of them, in [0, L)
-  std::int64_t collisions;               // when it was noticed
+  std::int64_t collisions;               // so far, when it was noticed
 };
 
 // Pair collisions after which tau (collisions per particle) is reached: ceil(tau N / 2).
 std::int64_t collisions_at(double tau, std::uint32_t particles);
 
-// The gas is synchronized whenever tau is a multiple of this (and wherever an effect acts on it
-// between collisions), and only there can it be stopped and stored. Part of the trajectory's
-// definition: changing it changes bits. [collisions/particle]
+// The gas is synchronized whenever tau is a multiple of this (and whenever an action is due); only
+// then can it be stored. This is part of the definition of a trajectory: changing it changes bits.
+// [collisions/particle]
 inline constexpr double synchronization_period = 10;
 
 class Simulation {
  public:
-  // Throws Breakdown if the state is none of hard spheres (soundness.hpp), std::invalid_argument if
-  // there is no such law or effect, or a parameter of it is missing.
-  Simulation(const Model& model, const State& start, Prediction prediction = Prediction::simd);
+  // Throws std::invalid_argument if the state is not one of hard spheres (soundness.hpp), if there
+  // is no such restitution model or effect, or if one of its parameters is missing.
+  Simulation(const Model& model, const State& start, SearchBackend backend = SearchBackend::simd);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  // Go on until exactly so many pair collisions have happened in all, synchronizing on the way
-  // whenever that is due. Throws Breakdown or Collapse; after that the gas can only be looked at.
+  // Runs until exactly so many pair collisions have happened in total, and synchronizes on the way
+  // whenever that is due. Throws PhysicsError or Collapse; after that the gas can only be observed.
   void run_to(std::int64_t collisions);
 
   std::uint32_t particles() const;
   std::int64_t collisions() const;
-  double time() const;        // true time of the last event
-  bool synchronized() const;  // may state() be called?
+  double time() const;        // the true time of the last event
+  bool synchronized() const;  // whether state() may be called
 
-  // Scaled velocities, true velocity = velocity * 2^-exponent, in an order that depends on the
-  // trajectory alone. Positions at time(), in [0, L), in the same order.
+  // Scaled velocities (true velocity = velocity * 2^-exponent), in an order that depends on the
+  // trajectory alone; positions at time(), in [0, L), and ids in the same order.
   std::vector<Vector> velocities() const;
   std::vector<Vector> positions() const;
-  std::vector<std::uint32_t> ids() const;  // in the same order
+  std::vector<std::uint32_t> ids() const;
   int exponent() const;
 
-  // Kinetic energy of rotation per particle, scaled as velocity squared; nothing if spheres do not
-  // rotate.
+  // Kinetic energy of rotation per particle, scaled like a squared velocity; nothing if particles
+  // do not rotate.
   std::optional<double> rotational_energy() const;
 
   // What collisions did since the last call.
   Tally take_tally();
   Invariants invariants() const;
 
-  // The state, only at a synchronization (throws std::logic_error elsewhere).
+  // The state; throws std::logic_error if the gas is not synchronized.
   State state() const;
 
   Events events() const;       // since the simulation was made
@@ -117,7 +120,7 @@ class Simulation {
   std::unique_ptr<Implementation> self_;
 };
 
-// Name of the SIMD instruction set in use, e.g. "AVX2".
+// The name of the SIMD instruction set in use, for example "AVX2".
 std::string simd_target();
 
 }  // namespace haff::engine

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "engine/mixture.hpp"
-#include "engine/particle.hpp"
+#include "engine/particles/box.hpp"
 
 namespace haff::engine {
 namespace {
 
-// Text made as printf() does.
+// Text formatted as by printf().
 template <class... Value>
 std::string text(const char* format, Value... value) {
   std::array<char, 200> buffer;
@@ -34,11 +34,12 @@ double distance2(const Vector& a, const Vector& b, double box) {
   return sum;
 }
 
-// Particles sorted into cells no smaller than a diameter: partners are at most one cell away.
+// Particles sorted into cells that are no smaller than a diameter: overlapping particles are at
+// most one cell apart.
 class Cells {
  public:
   explicit Cells(const State& state) : state_(state) {
-    // More cells than particles gain nothing, however dilute the gas.
+    // More cells than particles would gain nothing, however dilute the gas is.
     const double particles = state.particles();
     const double most = (state.d == 2 ? std::sqrt(particles) : std::cbrt(particles)) + 1;
     side_ = static_cast<int>(std::max(1.0, std::floor(std::min(state.box, most))));
@@ -53,7 +54,8 @@ class Cells {
       members_[next[cell_of(state.position[i])]++] = i;
   }
 
-  // Calls visit(i, j) for every pair in the same or in neighbouring cells, some of them twice.
+  // Calls visit(i, j) for every pair in the same cell or in neighbouring cells; for some pairs
+  // twice.
   template <class Visit>
   void for_each_pair(Visit&& visit) const {
     const int reach = side_ < 3 ? side_ - 1 : 1;
@@ -151,7 +153,7 @@ std::optional<std::string> deepest_overlap(const State& state) {
   std::pair<std::size_t, std::size_t> pair;
   Cells(state).for_each_pair([&](std::size_t i, std::size_t j) {
     double r2 = distance2(state.position[i], state.position[j], state.box);
-    if (mixture) {  // in contact distances
+    if (mixture) {  // in units of the contact distance
       const double contact = mixture->contact_distance(state.id[i], state.id[j]);
       r2 /= contact * contact;
     }

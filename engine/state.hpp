@@ -1,9 +1,9 @@
 // The state of a gas at a synchronization: every particle at the same instant.
 //
-// This is what a checkpoint holds, what a simulation starts from and what it returns. Units
-// (physics: m = sigma = 1, energy per particle 1 at the start): length sigma, mass m, time
-// sigma sqrt(m/E(0)). Velocities are kept near thermal speed 1 for ever: the true velocity is
-// velocity * 2^-exponent, exactly (see synchronize.hpp).
+// A checkpoint holds a state, and a simulation starts from one and returns one. Units (m = sigma =
+// 1, and energy per particle 1 at the start): length sigma, mass m, time sigma sqrt(m/E(0)).
+// Velocities are scaled so that the thermal speed stays near 1: the true velocity is velocity *
+// 2^-exponent, exactly (particles/synchronize.hpp).
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace haff::engine {
 
 using Vector = std::array<double, 3>;
 
-// What collisions did since the tally was last taken, in the units of the velocities beside it.
+// What collisions did since the tally was last taken, in the units of the velocities.
 struct Tally {
   double dissipated = 0;  // kinetic energy lost, summed collision by collision
   double virial = 0;      // sum of sigma * |momentum transfer|; p = nT + virial / (d V time)
@@ -24,25 +24,26 @@ struct Tally {
   bool operator==(const Tally&) const = default;
 };
 
-// Whether the physics held: cheap counters of every run, since its start. What they may be at most,
-// and why: soundness.hpp.
+// Whether the physics held: counters that every run keeps from its start. soundness.hpp says how
+// large they may be, and why.
 struct Invariants {
-  double closest2 = 1;              // smallest squared distance at a collision [sigma^2]
-  std::int64_t past_events = 0;     // events whose time had passed when their turn came
-  std::int64_t watchdog_trips = 0;  // collisions too slow to be resolved (watchdog.hpp)
-  double energy_mismatch = 0;       // largest |loss summed over collisions - change of kinetic
-                                    // energy| between synchronizations, relative to that energy
-  double momentum_removed = 0;      // largest |sum of m v| set to zero, / (sqrt(N) * rms speed)
+  double closest2 = 1;                     // smallest squared distance at a collision [sigma^2]
+  std::int64_t past_events = 0;            // events whose time had passed when their turn came
+  std::int64_t unresolved_collisions = 0;  // collisions too slow to be resolved (loop/watchdog.hpp)
+  // Largest |energy lost in collisions - change of kinetic energy| between two synchronizations,
+  // relative to that energy.
+  double energy_mismatch = 0;
+  double momentum_removed = 0;  // largest |sum of m v| set to zero, / (sqrt(N) * rms speed)
 
   bool operator==(const Invariants&) const = default;
 };
 
 struct State {
-  int d = 3;       // dimension; of disks (2) all z are 0
+  int d = 3;       // dimension; for disks (2) all z are 0
   double box = 0;  // side L of the periodic cube or square
 
-  // One entry a particle, in spatial order (synchronize.hpp). `id` names a particle for ever; its
-  // place in these arrays changes.
+  // One entry per particle, in spatial order (particles/spatial_order.hpp). The id of a particle
+  // never changes; its place in these arrays does.
   std::vector<std::uint32_t> id;
   std::vector<Vector> position;  // in [0, L)
   std::vector<Vector> velocity;  // scaled by 2^exponent
@@ -53,8 +54,8 @@ struct State {
   Tally tally;                  // in scaled units, like the velocities
   Invariants invariants;
 
-  // What a law of restitution or an effect remembers from one collision or action to the next, by
-  // name; mostly nothing.
+  // What a restitution model or an effect remembers from one collision or action to the next, by
+  // name. Most remember nothing.
   std::map<std::string, std::vector<double>> memory;
 
   std::uint32_t particles() const { return static_cast<std::uint32_t>(id.size()); }

@@ -160,7 +160,7 @@ schema::Commit Attempt::news(double tau) const {
           .fields = views_.fields,
           .invariants = schema::Invariants{.largest_overlap = engine::largest_overlap(seen),
                                            .past_events = seen.past_events,
-                                           .watchdog_trips = seen.watchdog_trips,
+                                           .watchdog_trips = seen.unresolved_collisions,
                                            .energy_mismatch = seen.energy_mismatch,
                                            .momentum_removed = seen.momentum_removed},
           .progress = progress(tau)};

@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
   app.add_option("--effects", effects, "as in a grid, JSON")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
-  const auto prediction = scalar ? engine::Prediction::scalar : engine::Prediction::simd;
+  const auto backend = scalar ? engine::SearchBackend::scalar : engine::SearchBackend::simd;
   const engine::Model asked = model(e, seed, effects);
   engine::State start = engine::initial_state(n, particles, seed, d, asked.effects);
   if (warmup > 0) {
@@ -88,11 +88,11 @@ int main(int argc, char** argv) {
     engine::Model elastic{.restitution = 1};
     if (const auto mixture = asked.effects.find("mixture"); mixture != asked.effects.end())
       elastic.effects.insert(*mixture);
-    engine::Simulation melting(elastic, start, prediction);
+    engine::Simulation melting(elastic, start, backend);
     melting.run_to(engine::collisions_at(period * std::ceil(warmup / period), particles));
     start = engine::restarted(melting.state());
   }
-  engine::Simulation gas(asked, start, prediction);
+  engine::Simulation gas(asked, start, backend);
   start = {};
   const auto begin = std::chrono::steady_clock::now();
   gas.run_to(engine::collisions_at(tau, particles));

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/actions.hpp"
-#include "engine/contact.hpp"
+#include "engine/actions/actions.hpp"
+#include "engine/collision/pair_geometry.hpp"
 #include "engine/initial.hpp"
-#include "engine/plastic_impact.hpp"
+#include "engine/restitution/plastic_impact.hpp"
+#include "engine/restitution/viscoelastic.hpp"
 #include "engine/simulation.hpp"
-#include "engine/viscoelastic.hpp"
 #include "support/gas.hpp"
 
 using namespace haff::engine;
@@ -33,9 +33,9 @@ void goes_on_from_its_state(const Model& model) {
 
 // e of a law that leaves none to choose, at a collision of this normal speed, in units of
 // velocities scaled by 2^exponent.
-template <class Law>
+template <class RestitutionModel>
 double e_at(double speed, const Parameters& parameters, int exponent = 0) {
-  Law law(1, parameters);
+  RestitutionModel law(1, parameters);
   law.scale(exponent);
   const Particle nobody{};
   const double scaled = std::ldexp(speed, exponent);
@@ -141,7 +141,7 @@ TEST_CASE("viscoelastic: e(v) is the series, in any units of speed") {
 }
 
 TEST_CASE("viscoelastic: where the series passes 1 the gas stops") {
-  CHECK_THROWS_AS((e_at<Viscoelastic>(1, {{"A", 2}})), Breakdown);
+  CHECK_THROWS_AS((e_at<Viscoelastic>(1, {{"A", 2}})), PhysicsError);
 }
 
 // A decade of speed lowers e of metals by 10^(1/4) = 1.78.

@@ -5,14 +5,14 @@
 
 #include <cmath>
 
+#include "engine/actions/thermostat.hpp"
+#include "engine/collision/rough_collision.hpp"
+#include "engine/collision/two_species.hpp"
 #include "engine/initial.hpp"
-#include "engine/laws.hpp"
-#include "engine/rough_spheres.hpp"
+#include "engine/particles/synchronize.hpp"
+#include "engine/restitution/restitution_models.hpp"
 #include "engine/simulation.hpp"
 #include "engine/soundness.hpp"
-#include "engine/synchronize.hpp"
-#include "engine/thermostat.hpp"
-#include "engine/two_species.hpp"
 #include "support/reference.hpp"
 
 using namespace haff;
@@ -33,15 +33,15 @@ State start_of(const Model& model, double n, std::uint32_t particles, std::uint6
   return initial_state(n, particles, seed, d, model.effects);
 }
 
-using SmoothMixture = SmoothSpheres<AnyLaw, TwoSpecies>;
-using RoughMixture = RoughSpheres<TwoSpecies>;
+using SmoothMixture = SmoothCollision<AnyRestitutionModel, TwoSpecies>;
+using RoughMixture = RoughCollision<TwoSpecies>;
 
 SmoothMixture smooth_mixture(const Model& model, const State& start) {
-  return SmoothMixture(AnyLaw(model), TwoSpecies(model, start));
+  return SmoothMixture(AnyRestitutionModel(model), TwoSpecies(model, start));
 }
 
 template <class Physics>
-void agrees(const Model& model, const State& start, double tau, Prediction prediction,
+void agrees(const Model& model, const State& start, double tau, SearchBackend prediction,
             Physics physics) {
   CAPTURE(start.particles());
   CAPTURE(start.d);
@@ -147,7 +147,7 @@ TEST_CASE("mixtures equal the reference") {
                           {plastic, 0.3, 60, 2, 11},
                           {heated, 0.3, 88, 3, 6}}) {
     const State start = start_of(one.model, one.n, one.particles, 7, one.d);
-    for (const Prediction prediction : {Prediction::simd, Prediction::scalar})
+    for (const SearchBackend prediction : {SearchBackend::simd, SearchBackend::scalar})
       agrees(one.model, start, one.tau, prediction, smooth_mixture(one.model, start));
   }
 }
@@ -158,7 +158,7 @@ TEST_CASE("mixtures of rough bodies equal the reference") {
     model.effects["roughness"] = {{"beta", 0.3}, {"q", 0.4}};
     model.effects["thermostat"] = {{"rate", 0.1}};
     const State start = start_of(model, 0.3, 60, 7, d);
-    agrees(model, start, 8, Prediction::simd, RoughMixture(model, TwoSpecies(model, start)));
+    agrees(model, start, 8, SearchBackend::simd, RoughMixture(model, TwoSpecies(model, start)));
   }
 }
 
@@ -241,7 +241,7 @@ TEST_CASE("mixture: SIMD and scalar search give the same bits") {
   for (const int d : {2, 3}) {
     const Model model = mixed(0.8, 0.6, 0.4, 0.1);
     const State start = start_of(model, 0.5, 2000, 5, d);
-    Simulation simd(model, start), scalar(model, start, Prediction::scalar);
+    Simulation simd(model, start), scalar(model, start, SearchBackend::scalar);
     simd.run_to(collisions_at(20, 2000));
     scalar.run_to(collisions_at(20, 2000));
     CHECK(simd.velocities() == scalar.velocities());

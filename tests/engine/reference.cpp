@@ -7,15 +7,15 @@
 #include <cmath>
 
 #include "engine/initial.hpp"
-#include "engine/random.hpp"
+#include "engine/support/random.hpp"
 
 using namespace haff;
 
 namespace {
 
-template <class Law = engine::ConstantRestitution>
+template <class RestitutionModel = engine::ConstantRestitution>
 void agrees(std::uint32_t particles, double n, double restitution, std::uint64_t seed, double tau,
-            engine::Prediction prediction, const engine::RestitutionLaw& law = {},
+            engine::SearchBackend prediction, const engine::RestitutionLaw& law = {},
             const std::map<std::string, engine::Parameters>& effects = {}, int d = 3) {
   CAPTURE(d);
   CAPTURE(particles);
@@ -26,7 +26,7 @@ void agrees(std::uint32_t particles, double n, double restitution, std::uint64_t
       .restitution = restitution, .law = law, .effects = effects, .seed = seed};
   const engine::State start = engine::initial_state(n, particles, seed, d);
   engine::Simulation gas(model, start, prediction);
-  tests::Reference<Law> reference(model, start);
+  tests::Reference<RestitutionModel> reference(model, start);
   const std::int64_t last = engine::collisions_at(tau, particles);
   for (std::int64_t collisions = 1; collisions <= last; ++collisions) {
     gas.run_to(collisions);
@@ -44,15 +44,15 @@ void agrees(std::uint32_t particles, double n, double restitution, std::uint64_t
 // Six diameters and more, where the vectorized search is used.
 TEST_CASE("SIMD engine equals the reference") {
   for (const double e : {1.0, 0.8, 0.5}) {
-    agrees(70, 0.05, e, 7, 12, engine::Prediction::simd);
-    agrees(88, 0.4, e, 7, 11, engine::Prediction::simd);
-    agrees(200, 0.9, e, 7, 1, engine::Prediction::simd);
+    agrees(70, 0.05, e, 7, 12, engine::SearchBackend::simd);
+    agrees(88, 0.4, e, 7, 11, engine::SearchBackend::simd);
+    agrees(200, 0.9, e, 7, 1, engine::SearchBackend::simd);
   }
 }
 
 TEST_CASE("scalar engine equals the reference") {
-  agrees(70, 0.05, 0.8, 7, 12, engine::Prediction::scalar);
-  agrees(88, 0.4, 0.8, 7, 11, engine::Prediction::scalar);
+  agrees(70, 0.05, 0.8, 7, 12, engine::SearchBackend::scalar);
+  agrees(88, 0.4, 0.8, 7, 11, engine::SearchBackend::scalar);
 }
 
 // Scenes drawn at random, a new one each time but always the same ones: sparse and dense, elastic
@@ -70,44 +70,44 @@ TEST_CASE("random scenes equal the reference") {
     const auto seed = static_cast<std::uint64_t>(scene);
     const double least = 2.0 * 2.0 * 2.0;  // the smallest box [sigma^3]
     agrees(particles, std::min(n, particles / (1.01 * least)), e, seed, 10.5,
-           scene % 4 == 0 ? engine::Prediction::scalar : engine::Prediction::simd);
+           scene % 4 == 0 ? engine::SearchBackend::scalar : engine::SearchBackend::simd);
   }
 }
 
 // Two particles that move as mirror images cross faces of their cells at the same moment, half a
 // box apart: found by the scenes above, where the contact with the farther image was missed.
 TEST_CASE("mirrored particles in a box of four cells equal the reference") {
-  agrees(2, 0.0302767, 1.0, 18, 60, engine::Prediction::simd);
+  agrees(2, 0.0302767, 1.0, 18, 60, engine::SearchBackend::simd);
 }
 
 TEST_CASE("boxes too small for cells equal the reference") {
-  agrees(2, 0.2, 1.0, 1, 60, engine::Prediction::simd);
-  agrees(3, 0.3, 0.9, 2, 60, engine::Prediction::simd);
-  agrees(8, 0.5, 0.9, 3, 40, engine::Prediction::simd);
-  agrees(32, 0.8, 0.7, 4, 20, engine::Prediction::simd);
+  agrees(2, 0.2, 1.0, 1, 60, engine::SearchBackend::simd);
+  agrees(3, 0.3, 0.9, 2, 60, engine::SearchBackend::simd);
+  agrees(8, 0.5, 0.9, 3, 40, engine::SearchBackend::simd);
+  agrees(32, 0.8, 0.7, 4, 20, engine::SearchBackend::simd);
 }
 
 TEST_CASE("laws of restitution equal the reference") {
   const engine::RestitutionLaw threshold{"threshold", {{"speed", 0.3}}};
   const engine::RestitutionLaw tc{"tc", {{"t_c", 0.02}}};
   for (const double e : {0.8, 0.3}) {
-    agrees<engine::ElasticThreshold>(70, 0.4, e, 7, 32, engine::Prediction::simd, threshold);
-    agrees<engine::ContactDuration>(70, 0.4, e, 7, 32, engine::Prediction::simd, tc);
-    agrees<engine::ContactDuration>(70, 0.4, e, 7, 12, engine::Prediction::scalar, tc);
-    agrees<engine::ContactDuration>(8, 0.5, e, 3, 40, engine::Prediction::simd, tc);
+    agrees<engine::ElasticThreshold>(70, 0.4, e, 7, 32, engine::SearchBackend::simd, threshold);
+    agrees<engine::ContactDuration>(70, 0.4, e, 7, 32, engine::SearchBackend::simd, tc);
+    agrees<engine::ContactDuration>(70, 0.4, e, 7, 12, engine::SearchBackend::scalar, tc);
+    agrees<engine::ContactDuration>(8, 0.5, e, 3, 40, engine::SearchBackend::simd, tc);
   }
   const engine::RestitutionLaw viscoelastic{"viscoelastic", {{"A", 0.3}}};
-  agrees<engine::Viscoelastic>(70, 0.4, 1, 7, 42, engine::Prediction::simd, viscoelastic);
-  agrees<engine::Viscoelastic>(8, 0.5, 1, 3, 40, engine::Prediction::scalar, viscoelastic);
+  agrees<engine::Viscoelastic>(70, 0.4, 1, 7, 42, engine::SearchBackend::simd, viscoelastic);
+  agrees<engine::Viscoelastic>(8, 0.5, 1, 3, 40, engine::SearchBackend::scalar, viscoelastic);
   const engine::RestitutionLaw plastic{"plastic", {{"speed", 0.3}}};
-  agrees<engine::PlasticImpact>(70, 0.4, 1, 7, 42, engine::Prediction::simd, plastic);
+  agrees<engine::PlasticImpact>(70, 0.4, 1, 7, 42, engine::SearchBackend::simd, plastic);
 }
 
 TEST_CASE("actions equal the reference") {
   const auto acted = [](const std::map<std::string, engine::Parameters>& effects) {
-    agrees(70, 0.4, 0.8, 7, 32, engine::Prediction::simd, {}, effects);
-    agrees(70, 0.4, 0.8, 7, 12, engine::Prediction::scalar, {}, effects);
-    agrees(8, 0.5, 0.9, 3, 40, engine::Prediction::simd, {}, effects);
+    agrees(70, 0.4, 0.8, 7, 32, engine::SearchBackend::simd, {}, effects);
+    agrees(70, 0.4, 0.8, 7, 12, engine::SearchBackend::scalar, {}, effects);
+    agrees(8, 0.5, 0.9, 3, 40, engine::SearchBackend::simd, {}, effects);
   };
   acted({{"shuffle", {{"every", 1}}}});
   acted({{"shuffle", {{"every", 0.7}}}});
@@ -117,22 +117,22 @@ TEST_CASE("actions equal the reference") {
 
 namespace {
 
-template <class Law = engine::ConstantRestitution>
+template <class RestitutionModel = engine::ConstantRestitution>
 void disks_agree(std::uint32_t particles, double n, double e, std::uint64_t seed, double tau,
-                 engine::Prediction prediction, const engine::RestitutionLaw& law = {},
+                 engine::SearchBackend prediction, const engine::RestitutionLaw& law = {},
                  const std::map<std::string, engine::Parameters>& effects = {}) {
-  agrees<Law>(particles, n, e, seed, tau, prediction, law, effects, 2);
+  agrees<RestitutionModel>(particles, n, e, seed, tau, prediction, law, effects, 2);
 }
 
 }  // namespace
 
 TEST_CASE("disks equal the reference") {
   for (const double e : {1.0, 0.8, 0.5}) {
-    disks_agree(30, 0.05, e, 7, 22, engine::Prediction::simd);
-    disks_agree(60, 0.4, e, 7, 21, engine::Prediction::simd);
-    disks_agree(80, 1.0, e, 7, 5, engine::Prediction::simd);
+    disks_agree(30, 0.05, e, 7, 22, engine::SearchBackend::simd);
+    disks_agree(60, 0.4, e, 7, 21, engine::SearchBackend::simd);
+    disks_agree(80, 1.0, e, 7, 5, engine::SearchBackend::simd);
   }
-  disks_agree(60, 0.4, 0.8, 7, 21, engine::Prediction::scalar);
+  disks_agree(60, 0.4, 0.8, 7, 21, engine::SearchBackend::scalar);
 }
 
 // As the random scenes of spheres: most of these boxes are smaller than six diameters.
@@ -149,7 +149,7 @@ TEST_CASE("random scenes of disks equal the reference") {
     const double least = 2.0 * 2.0;  // the smallest box [sigma^2]
     disks_agree(particles, std::min(n, particles / (1.01 * least)), e,
                 static_cast<std::uint64_t>(scene), 10.5,
-                scene % 4 == 0 ? engine::Prediction::scalar : engine::Prediction::simd);
+                scene % 4 == 0 ? engine::SearchBackend::scalar : engine::SearchBackend::simd);
   }
 }
 
@@ -157,10 +157,13 @@ TEST_CASE("disks with laws of restitution and actions equal the reference") {
   const engine::RestitutionLaw threshold{"threshold", {{"speed", 0.3}}};
   const engine::RestitutionLaw tc{"tc", {{"t_c", 0.02}}};
   for (const double e : {0.8, 0.3}) {
-    disks_agree<engine::ElasticThreshold>(60, 0.4, e, 7, 22, engine::Prediction::simd, threshold);
-    disks_agree<engine::ContactDuration>(60, 0.4, e, 7, 22, engine::Prediction::simd, tc);
-    disks_agree<engine::ContactDuration>(6, 0.4, e, 3, 40, engine::Prediction::simd, tc);
+    disks_agree<engine::ElasticThreshold>(60, 0.4, e, 7, 22, engine::SearchBackend::simd,
+                                          threshold);
+    disks_agree<engine::ContactDuration>(60, 0.4, e, 7, 22, engine::SearchBackend::simd, tc);
+    disks_agree<engine::ContactDuration>(6, 0.4, e, 3, 40, engine::SearchBackend::simd, tc);
   }
-  disks_agree(60, 0.4, 0.8, 7, 22, engine::Prediction::simd, {}, {{"shuffle", {{"every", 0.7}}}});
-  disks_agree(60, 0.4, 0.8, 7, 22, engine::Prediction::simd, {}, {{"thermostat", {{"rate", 0.5}}}});
+  disks_agree(60, 0.4, 0.8, 7, 22, engine::SearchBackend::simd, {},
+              {{"shuffle", {{"every", 0.7}}}});
+  disks_agree(60, 0.4, 0.8, 7, 22, engine::SearchBackend::simd, {},
+              {{"thermostat", {{"rate", 0.5}}}});
 }

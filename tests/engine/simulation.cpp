@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "engine/contact.hpp"
+#include "engine/collision/pair_geometry.hpp"
 #include "engine/initial.hpp"
 
 using namespace haff::engine;
@@ -96,8 +96,8 @@ TEST_CASE("SIMD and scalar prediction give the same bits") {
   for (const std::uint32_t count : {500u, 4000u, 20'000u}) {
     CAPTURE(count);
     const State start = initial_state(0.4, count, 2);
-    Simulation simd({.restitution = 0.7}, start, Prediction::simd);
-    Simulation scalar({.restitution = 0.7}, start, Prediction::scalar);
+    Simulation simd({.restitution = 0.7}, start, SearchBackend::simd);
+    Simulation scalar({.restitution = 0.7}, start, SearchBackend::scalar);
     simd.run_to(collisions_at(10, count));
     scalar.run_to(collisions_at(10, count));
     CHECK(simd.state() == scalar.state());
@@ -122,5 +122,5 @@ TEST_CASE("a gas in which nobody moves cannot be run") {
   State still = initial_state(0.4, 108, 1);
   for (Vector& v : still.velocity) v = {0, 0, 0};
   Simulation gas({.restitution = 1}, still);
-  CHECK_THROWS_AS(gas.run_to(1), Breakdown);
+  CHECK_THROWS_AS(gas.run_to(1), PhysicsError);
 }

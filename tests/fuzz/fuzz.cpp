@@ -14,9 +14,9 @@
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/restore.hpp"
 #include "engine/initial.hpp"
-#include "engine/random.hpp"
 #include "engine/simulation.hpp"
 #include "engine/soundness.hpp"
+#include "engine/support/random.hpp"
 #include "schema/grid.hpp"
 
 using namespace haff;
@@ -111,7 +111,7 @@ void try_state(Random& random) {
   const engine::Model model = some_model(random);
   try {
     engine::Simulation simd(model, start);
-    engine::Simulation scalar(model, start, engine::Prediction::scalar);
+    engine::Simulation scalar(model, start, engine::SearchBackend::scalar);
     double before = start.time;
     for (const double tau : {3.0, 10.0, 23.0}) {
       simd.run_to(engine::collisions_at(tau, start.particles()));
@@ -121,7 +121,8 @@ void try_state(Random& random) {
       if (!(simd.time() >= before)) throw std::logic_error("time ran backwards");
       before = simd.time();
     }
-  } catch (const engine::Breakdown&) {  // refused, or said to be broken
+  } catch (const std::invalid_argument&) {  // refused
+  } catch (const engine::PhysicsError&) {
   } catch (const engine::Collapse&) {
   }
 }
@@ -165,7 +166,7 @@ void try_checkpoint(Random& random) {
     engine::Simulation gas({.restitution = 0.8, .law = {"tc", {{"t_c", 1e-3}}}}, read);
     gas.run_to(engine::collisions_at(1, gas.particles()));
   } catch (const campaign::DamagedCheckpoint&) {
-  } catch (const engine::Breakdown&) {
+  } catch (const engine::PhysicsError&) {
   } catch (const engine::Collapse&) {
   } catch (const std::invalid_argument&) {  // a memory of other particles
   }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/contact.hpp"
+#include "engine/collision/pair_geometry.hpp"
 #include "engine/simulation.hpp"
 
 namespace haff::tests {

@@ -1,9 +1,9 @@
 // A naive reference engine: every pair, every image, at every event. Slow and evidently right; the
 // real engine must agree with it event by event and bit by bit.
 //
-// It shares the definition of a contact, a collision and a synchronization (engine/contact.hpp,
-// engine/synchronize.hpp), the laws of restitution and actions, and nothing else: no cells, no
-// calendar, no SIMD.
+// It shares the definition of a contact, a collision and a synchronization (engine/collision,
+// engine/particles/synchronize.hpp), the restitution models and the actions, and nothing else: no
+// cells, no event queue, no SIMD.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,11 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/actions.hpp"
-#include "engine/laws.hpp"
+#include "engine/actions/actions.hpp"
+#include "engine/collision/smooth_collision.hpp"
+#include "engine/particles/synchronize.hpp"
+#include "engine/restitution/restitution_models.hpp"
 #include "engine/simulation.hpp"
-#include "engine/synchronize.hpp"
 
 namespace haff::tests {
 
@@ -115,13 +116,14 @@ class ReferenceOf {
 };
 
 // Smooth spheres.
-template <class Law = engine::ConstantRestitution>
-class Reference : public ReferenceOf<engine::SmoothSpheres<Law>> {
+template <class RestitutionModel = engine::ConstantRestitution>
+class Reference : public ReferenceOf<engine::SmoothCollision<RestitutionModel>> {
  public:
   Reference(const engine::Model& model, const engine::State& state)
-      : ReferenceOf<engine::SmoothSpheres<Law>>(
-            engine::SmoothSpheres<Law>(Law(model.restitution, model.law.parameters)), model,
-            state) {}
+      : ReferenceOf<engine::SmoothCollision<RestitutionModel>>(
+            engine::SmoothCollision<RestitutionModel>(
+                RestitutionModel(model.restitution, model.law.parameters)),
+            model, state) {}
 };
 
 }  // namespace haff::tests

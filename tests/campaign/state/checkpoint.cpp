@@ -22,7 +22,7 @@ engine::State a_state() {
   state.tally = {.dissipated = 1.5, .virial = -0.0};
   state.invariants = {.closest2 = 1 - 1e-15,
                       .past_events = 3,
-                      .watchdog_trips = 1,
+                      .unresolved_collisions = 1,
                       .energy_mismatch = 1e-14,
                       .momentum_removed = 1e-17};
   state.memory["last_contact"] = {-0.5, 0.0, -std::numeric_limits<double>::infinity()};

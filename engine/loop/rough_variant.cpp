@@ -1,0 +1,56 @@
+// Rough spheres and disks. They touch when smooth ones would, so the SIMD search serves them, too:
+// compiled once for each target. Rough particles of two species use the plain search.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/loop/rough_variant.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "engine/collision/rough_collision.hpp"
+#include "engine/collision/two_species.hpp"
+#include "engine/loop/engine_variant-inl.hpp"
+#include "engine/search/simd_search-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace haff::engine::HWY_NAMESPACE {
+
+std::unique_ptr<EngineVariant> simd_rough_spheres(const Model& model, const State& start) {
+  RoughCollision physics(model);
+  if (start.d == 2)
+    return std::make_unique<VariantOf<SimdSearch<2>, RoughCollision<>>>(std::move(physics), start);
+  if (start.id.size() < worth_prefetching)
+    return std::make_unique<VariantOf<SimdSearch<3>, RoughCollision<>>>(std::move(physics), start);
+  return std::make_unique<VariantOf<SimdSearch<3>, RoughCollision<>, true>>(std::move(physics),
+                                                                            start);
+}
+
+}  // namespace haff::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace haff::engine {
+
+HWY_EXPORT(simd_rough_spheres);
+
+namespace {
+
+template <class PairGeometry>
+std::unique_ptr<EngineVariant> plain_rough(const Model& model, const Gas& gas, const State& start,
+                                           PairGeometry geometry) {
+  RoughCollision physics(model, std::move(geometry));
+  return start.d == 2 ? HWY_NAMESPACE::plain<PairGeometry, 2>(std::move(physics), gas, start)
+                      : HWY_NAMESPACE::plain<PairGeometry, 3>(std::move(physics), gas, start);
+}
+
+}  // namespace
+
+std::unique_ptr<EngineVariant> rough_variant(const Model& model, const Gas& gas, const State& start,
+                                             SearchBackend backend) {
+  if (model.effects.contains("mixture"))
+    return plain_rough(model, gas, start, TwoSpecies(model, start));
+  if (backend == SearchBackend::simd && gas.tells_images_apart())
+    return HWY_DYNAMIC_DISPATCH(simd_rough_spheres)(model, start);
+  return plain_rough(model, gas, start, HardSpheres());
+}
+
+}  // namespace haff::engine
+#endif

@@ -1,0 +1,16 @@
+// The order of the particles in memory: along a space-filling curve, so that neighbours in space
+// are neighbours in memory.
+#pragma once
+
+#include <span>
+
+#include "engine/particles/box.hpp"
+#include "engine/particles/particle.hpp"
+
+namespace haff::engine {
+
+// Sorts the particles along the Z curve (G. M. Morton, 1966) through 1024^3 boxes. Particles in the
+// same box keep their order.
+void sort_in_space(std::span<Particle> particles, const Box& box);
+
+}  // namespace haff::engine

@@ -1,0 +1,22 @@
+// A particle's next event: it touches its partner or leaves its cell, whichever comes first.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/search/bricks.hpp"
+
+namespace haff::engine {
+
+struct Event {
+  double time;                    // of the earlier of the two
+  double contact_time;            // no contact is known before this time
+  std::uint32_t partner;          // at contact_time
+  std::uint32_t partner_changes;  // the partner's `changes` when this was computed
+  Cell cell;
+  Face face;  // to leave through, or `contact`
+
+  static constexpr Face contact = 6;
+};
+static_assert(sizeof(Event) == 32);
+
+}  // namespace haff::engine

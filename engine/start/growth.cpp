@@ -1,0 +1,124 @@
+#include "engine/start/growth.hpp"
+
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "engine/loop/event_loop-inl.hpp"
+#include "engine/support/random.hpp"
+
+namespace haff::engine {
+namespace {
+
+// d(diameter)/dt, in units of the thermal speed: slow enough to reach random close packing, and
+// fast enough to avoid crystallization on the way.
+constexpr double growth_rate = 0.02;
+// The spheres are jammed if they collide so often that they grow by less than this between two
+// synchronizations. [sigma]
+constexpr double least_growth = 1e-5;
+
+// Elastic spheres whose diameter is `diameter` + growth_rate * (time since the synchronization).
+struct GrowingSpheres {
+  double diameter;
+
+  double contact_time(const Encounter& pair, const Particle&, const Particle&) const {
+    const double wide = diameter + growth_rate * pair.start;
+    const double approach = dot(pair.r, pair.v) - wide * growth_rate;
+    const double speed2 = dot(pair.v, pair.v) - growth_rate * growth_rate;
+    const double gap = dot(pair.r, pair.r) - wide * wide;
+    const double discriminant = approach * approach - speed2 * gap;
+    // A pair that separates more slowly than the spheres grow touches, too.
+    if (!((approach < 0 || (speed2 < 0 && gap > 0)) && discriminant >= 0)) return never;
+    return pair.start + std::max(gap, 0.0) / (std::sqrt(discriminant) - approach);
+  }
+
+  double collide(Particle& a, Particle& b, double now, const Box& box, Clock&) const {
+    advance(a, now);
+    advance(b, now);
+    const Encounter contact(a, b, now, box);
+    const double distance2 = dot(contact.r, contact.r);
+    // Reflected in the frame of the surfaces, which move at growth_rate / 2 each.
+    const double change =
+        dot(contact.r, contact.v) / distance2 - growth_rate / std::sqrt(distance2);
+    for (std::size_t k = 0; k < 3; ++k) {
+      a.velocity[k] += change * contact.r[k];
+      b.velocity[k] -= change * contact.r[k];
+    }
+    ++a.changes;
+    ++b.changes;
+    return -1;  // growth drives them apart: this is nothing for the watchdog
+  }
+};
+
+template <class Candidates, int d>
+using Loop = HWY_NAMESPACE::EventLoop<PlainSearch<GrowingSpheres, Candidates, d>, GrowingSpheres>;
+
+State random_points(std::uint32_t count, const Box& box, std::uint64_t seed) {
+  Random random(seed, Stream::growth);
+  State state;
+  state.d = box.d;
+  state.box = box.side;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    state.id.push_back(k);
+    state.position.emplace_back();
+    state.velocity.emplace_back();
+    const auto axes = static_cast<std::size_t>(box.d);
+    for (double& x : std::span(state.position.back()).first(axes)) x = random.uniform() * box.side;
+    for (double& v : std::span(state.velocity.back()).first(axes)) v = random.normal();
+  }
+  return state;
+}
+
+// Growth heats the gas: this sets its thermal speed back to one.
+void cool(Gas& gas) {
+  const double factor = 1 / std::sqrt(kinetic_energy(gas.particles));
+  for (Particle& p : gas.particles)
+    for (double& v : p.velocity) v *= factor;
+}
+
+// Runs until the next synchronization, or until the spheres are full-grown.
+template <class Candidates, int d>
+void grow_among(Gas& gas, GrowingSpheres spheres, std::int64_t collisions) {
+  Loop<Candidates, d> loop(gas, spheres);
+  loop.predict_all();
+  loop.run(collisions, (1 - spheres.diameter) / growth_rate);
+}
+
+template <int d>
+void grow(Gas& gas, const GrowingSpheres& spheres, std::int64_t collisions) {
+  if (!Bricks::fits(gas.box))
+    grow_among<AllParticlesAllImages, d>(gas, spheres, collisions);
+  else if (!gas.bricks.tell_images_apart())
+    grow_among<NearbyAllImages, d>(gas, spheres, collisions);
+  else
+    grow_among<NearbyNearestImage, d>(gas, spheres, collisions);
+}
+
+}  // namespace
+
+std::vector<Vector> grown_positions(std::uint32_t count, const Box& box, std::uint64_t seed) {
+  Gas gas(random_points(count, box, seed));
+  for (double diameter = 0; diameter < 1;) {
+    cool(gas);
+    prepare(gas);
+    const std::int64_t stop = next_synchronization(gas.clock.collisions, count);
+    if (box.d == 2)
+      grow<2>(gas, {diameter}, stop);
+    else
+      grow<3>(gas, {diameter}, stop);
+    const double growth = growth_rate * gas.clock.now;
+    const bool full_grown = gas.clock.collisions < stop;  // stopped by time
+    if (!full_grown && growth < least_growth)
+      throw std::invalid_argument("spheres grown into a box of side " + std::to_string(box.side) +
+                                  " jammed at diameter " + std::to_string(diameter) +
+                                  ": n is too high");
+    diameter = full_grown ? 1 : diameter + growth;
+    synchronize(gas.particles, gas.clock, box);
+  }
+  std::vector<Vector> positions(count);
+  for (const Particle& p : gas.particles) positions[p.id] = p.position;
+  return positions;
+}
+
+}  // namespace haff::engine
