@@ -157,6 +157,18 @@ Database::Database(const std::filesystem::path& path, Access access) try
   raise(path, error);
 }
 
+void Database::wait_for_locks_while(bool (*may_wait)()) {
+  // Called by SQLite each time it finds the lock taken; 0 ends the waiting.
+  const auto wait = [](void* asked, int times) {
+    constexpr std::chrono::milliseconds pause{10};
+    const auto may_go_on = reinterpret_cast<bool (*)()>(asked);
+    if (times * pause > busy_timeout || !may_go_on()) return 0;
+    std::this_thread::sleep_for(pause);
+    return 1;
+  };
+  sqlite3_busy_handler(sqlite_.getHandle(), wait, reinterpret_cast<void*>(may_wait));
+}
+
 void Database::raise(const std::filesystem::path& path, const SQLite::Exception& error) {
   const std::string file = path.string();
   const std::string said = error.what();
@@ -167,8 +179,8 @@ void Database::raise(const std::filesystem::path& path, const SQLite::Exception&
                       "); nothing of this was stored. Make room, then give the same command again");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      throw StoreError(file + ": another process has kept it locked for " +
-                       std::to_string(busy_timeout.count() / 1000) + " s (" + said + ")");
+      throw Locked(file + ": another process keeps it locked (" + said +
+                   "); see what holds it, then give the same command again");
     case SQLITE_CORRUPT:
       throw Damage(file + ": is damaged (" + said + "); see: campaign verify --store " + file);
     case SQLITE_NOTADB:

@@ -26,6 +26,10 @@ class Database {
   SQLite::Database& sqlite() { return sqlite_; }
   const std::filesystem::path& path() const { return path_; }
 
+  // From here on waits for locks of other processes no longer than busy_timeout, nor than
+  // `may_wait` allows, which is asked some times a second.
+  void wait_for_locks_while(bool (*may_wait)());
+
   // Run what talks to SQLite, with its exceptions turned into those of error.hpp.
   template <class Work>
   auto guarded(Work&& work) {

@@ -16,6 +16,11 @@ struct DiskError : StoreError {
   using StoreError::StoreError;
 };
 
+// Another process kept the store locked for longer than this one may wait.
+struct Locked : StoreError {
+  using StoreError::StoreError;
+};
+
 // The job this writer worked on belongs to another now (or to nobody). Nothing was written: stop
 // working on it.
 struct LeaseLost : StoreError {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "schema/checksum.hpp"
 #include "schema/database.hpp"
@@ -26,6 +27,8 @@ Summary Reader::summary() const {
     SQLite::Statement jobs(database_->sqlite(), R"(
       SELECT status, count(*) AS number, total(cpu_seconds) AS spent,
              total(expected_cpu_seconds) AS expected,
+             total(expected_cpu_seconds * iif(status IN ('done', 'collapsed'), 1,
+                                              min(1, tau / tau_max))) AS reached,
              total(expected_cpu_seconds * max(0, 1 - tau / tau_max))
                FILTER (WHERE status IN ('pending', 'running', 'lent')) AS remaining
       FROM jobs GROUP BY status)");
@@ -33,6 +36,7 @@ Summary Reader::summary() const {
       summary.jobs[status_named(text(jobs, "status"))] = integer(jobs, "number");
       summary.cpu_seconds += real(jobs, "spent");
       summary.expected_cpu_seconds += real(jobs, "expected");
+      summary.reached_cpu_seconds += real(jobs, "reached");
       summary.remaining_cpu_seconds += real(jobs, "remaining");
     }
     SQLite::Statement pending(database_->sqlite(), R"(
@@ -48,6 +52,17 @@ Summary Reader::summary() const {
       count += integer(pending, "number");
     }
     return summary;
+  });
+}
+
+std::map<Status, std::int64_t> Reader::job_counts() const {
+  return database_->guarded([&] {
+    std::map<Status, std::int64_t> counts;
+    SQLite::Statement statement(database_->sqlite(),
+                                "SELECT status, count(*) AS number FROM jobs GROUP BY status");
+    while (statement.executeStep())
+      counts[status_named(text(statement, "status"))] = integer(statement, "number");
+    return counts;
   });
 }
 
@@ -96,6 +111,33 @@ std::vector<RunningJob> Reader::running() const {
                       .renewed = text(statement, "renewed")});
     return jobs;
   });
+}
+
+bool Reader::has_claimable(const std::optional<Fit>& fit) const {
+  return database_->guarded([&] {
+    SQLite::Statement statement(database_->sqlite(),
+                                std::string("SELECT 1 ") + from_claimable_jobs + "AND " +
+                                    seconds_to_next_tau + " <= :seconds LIMIT 1");
+    statement.bind(":seconds", fit ? fit->seconds : std::numeric_limits<double>::max());
+    statement.bind(":tau", fit ? fit->tau : 0);
+    return statement.executeStep();
+  });
+}
+
+std::optional<double> Reader::least_seconds_to(double tau) const {
+  return database_->guarded([&]() -> std::optional<double> {
+    SQLite::Statement statement(
+        database_->sqlite(),
+        std::string("SELECT min(") + seconds_to_next_tau + ") AS seconds " + from_claimable_jobs);
+    statement.bind(":tau", tau);
+    if (!statement.executeStep()) return std::nullopt;
+    return optional_real(statement, "seconds");
+  });
+}
+
+std::int64_t Reader::change_counter() const {
+  return database_->guarded(
+      [&] { return database_->sqlite().execAndGet("PRAGMA data_version").getInt64(); });
 }
 
 std::vector<Sample> Reader::samples(std::int64_t job_id) const {
@@ -203,6 +245,15 @@ std::vector<Target> Reader::targets() const {
             .cpu_seconds = real(row, "cpu_seconds")};
     }
     return targets;
+  });
+}
+
+double Reader::stored_tau(std::int64_t job_id) const {
+  return database_->guarded([&] {
+    SQLite::Statement statement(database_->sqlite(),
+                                "SELECT tau FROM checkpoints WHERE job_id = ?");
+    statement.bind(1, job_id);
+    return statement.executeStep() ? real(statement, "tau") : 0.0;
   });
 }
 

@@ -43,6 +43,17 @@ CheckpointInfo checkpoint_info(const SQLite::Statement& row);
 std::string seeds_text(const std::vector<std::uint64_t>& seeds);
 std::vector<std::uint64_t> seeds_in(const std::string& text);
 
+// SQL: the CPU time that a job of the table `jobs` is expected to need to get :tau further, or to
+// its end. [s] 0 where nothing is known.
+inline constexpr const char* seconds_to_next_tau =
+    "(coalesce(jobs.expected_cpu_seconds, 0) * min(:tau, jobs.tau_max - jobs.tau) / jobs.tau_max)";
+
+// SQL: the jobs that can be claimed, as `jobs`.
+inline constexpr const char* from_claimable_jobs =
+    "FROM jobs LEFT JOIN jobs AS equilibration ON equilibration.job_id = jobs.equilibration_id "
+    "WHERE jobs.status = 'pending' "
+    "AND (jobs.kind = 'equilibration' OR equilibration.status = 'done') ";
+
 // What adding this job to the store as it is would do.
 Outcome outcome(SQLite::Database& sqlite, const Planned& planned);
 

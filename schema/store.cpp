@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <stdexcept>
 
@@ -373,7 +374,12 @@ void Store::predict(const Target& target, const Prediction& prediction) {
   });
 }
 
-std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_version) {
+void Store::wait_for_locks_while(bool (*may_wait)()) {
+  database().wait_for_locks_while(may_wait);
+}
+
+std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_version,
+                                  const std::optional<Fit>& fit) {
   return database().transaction([&]() -> std::optional<Claim> {
     SQLite::Statement statement(database().sqlite(), R"(
       UPDATE jobs SET status = 'running', lease = lease + 1, host = :host,
@@ -383,10 +389,9 @@ std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_ve
                       started = coalesce(started, )" + now +
                                                          R"()
       WHERE job_id = (
-        SELECT jobs.job_id
-        FROM jobs LEFT JOIN jobs AS equilibration ON equilibration.job_id = jobs.equilibration_id
-        WHERE jobs.status = 'pending'
-          AND (jobs.kind = 'equilibration' OR equilibration.status = 'done')
+        SELECT jobs.job_id )" + std::string() + from_claimable_jobs +
+                                                         R"(
+          AND )" + seconds_to_next_tau + R"( <= :seconds
         ORDER BY jobs.kind = 'equilibration' DESC,
                  coalesce(jobs.expected_cpu_seconds, 0) * (1 - jobs.tau / jobs.tau_max) DESC,
                  jobs.particles * (jobs.tau_max - jobs.tau) DESC,
@@ -398,6 +403,8 @@ std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_ve
     statement.bind(":pid", owner.pid);
     statement.bind(":started", owner.started);
     statement.bind(":code_version", code_version);
+    statement.bind(":seconds", fit ? fit->seconds : std::numeric_limits<double>::max());
+    statement.bind(":tau", fit ? fit->tau : 0);
     if (!statement.executeStep()) return std::nullopt;
     const JobRow row = job_row(statement);
     return Claim{.lease = {row.job_id, integer(statement, "lease")},

@@ -154,6 +154,13 @@ struct Lease {
   std::int64_t token = 0;
 };
 
+// Whether something of a job can be stored in the time that is left: whether it is expected to get
+// so much further, or to its end, within these seconds.
+struct Fit {
+  double seconds = 0;  // of CPU time
+  double tau = 0;
+};
+
 struct Claim {
   Lease lease;
   Job job;
@@ -217,7 +224,8 @@ struct Summary {
   std::int64_t blocked = 0;             // pending, its equilibration failed: retry that first
   double cpu_seconds = 0;               // spent, all jobs
   double expected_cpu_seconds = 0;      // for all jobs from start to tau_max, where known
-  double remaining_cpu_seconds = 0;     // of which not yet reached, in proportion to tau
+  double reached_cpu_seconds = 0;       // of which stored, in proportion to tau
+  double remaining_cpu_seconds = 0;     // of which still to come: of pending and running jobs
 };
 
 // Reads a store, and cannot write it: SQLite refuses.
@@ -232,10 +240,20 @@ class Reader {
   const std::filesystem::path& path() const;
 
   Summary summary() const;
+  std::map<Status, std::int64_t> job_counts() const;  // Summary::jobs alone, from an index
   std::vector<JobRow> jobs() const;  // by kind, d, n, particles, e, ..., seed: a table's order
   JobRow job(std::int64_t job_id) const;
   std::optional<std::int64_t> find(const Job& job) const;
   std::vector<RunningJob> running() const;
+
+  // Whether there is a job to claim, of which something can be stored if `fit` says so.
+  bool has_claimable(const std::optional<Fit>& fit) const;
+  // The least time that a job which can be claimed is expected to need to get so much further, or
+  // to its end; nothing if there is none. [s of CPU time]
+  std::optional<double> least_seconds_to(double tau) const;
+
+  // Changes whenever another connection has changed the store.
+  std::int64_t change_counter() const;
 
   std::vector<Sample> samples(std::int64_t job_id) const;  // by tau
   // The job's last sample with sample.tau <= tau: what a resumed job goes on from.
@@ -248,6 +266,7 @@ class Reader {
 
   std::vector<Target> targets() const;  // by series, quantity, window
 
+  double stored_tau(std::int64_t job_id) const;     // of its newest checkpoint, or 0
   std::vector<CheckpointInfo> checkpoints() const;  // one a job at most, by job_id
   // The job's newest checkpoint. Throws Damage if a chunk is missing or a bit is wrong.
   std::optional<Checkpoint> checkpoint(std::int64_t job_id) const;
@@ -297,9 +316,15 @@ class Store : public Reader {
   // Keep what a target of the store is expected to take. What was expected first stays.
   void predict(const Target& target, const Prediction& prediction);
 
+  // Wait for locks of other processes only while this function, asked some times a second, says
+  // so, and never longer than busy_timeout. What waits longer throws Locked.
+  void wait_for_locks_while(bool (*may_wait)());
+
   // Take a job that can be run: equilibrations first, then those whose remaining time is longest,
-  // so that the last ones to finish are short. Nothing if none can be run now (see Summary).
-  std::optional<Claim> claim(const Owner& owner, const std::string& code_version);
+  // so that the last ones to finish are short. Nothing if none can be run now (see Summary), or
+  // none of which something can be stored, where `fit` says how much time there is.
+  std::optional<Claim> claim(const Owner& owner, const std::string& code_version,
+                             const std::optional<Fit>& fit = {});
 
   // Still alive, and so far. Throws LeaseLost like everything below.
   void progress(const Lease& lease, const Progress& progress);

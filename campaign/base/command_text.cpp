@@ -1,10 +1,29 @@
 #include "campaign/base/command_text.hpp"
 
+#include <algorithm>
+
 namespace haff::campaign {
+namespace {
+
+bool is_plain(char c) {
+  constexpr std::string_view plain = "_-./:,@%+=";
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         plain.find(c) != std::string_view::npos;
+}
+
+}  // namespace
+
+std::string shell_word(std::string_view word) {
+  if (word.starts_with('-')) return shell_word("./" + std::string(word));
+  if (!word.empty() && std::ranges::all_of(word, is_plain)) return std::string(word);
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + '\'';
+}
 
 std::string command_text(const std::string& command, const std::filesystem::path& store) {
   if (store == default_store) return "campaign " + command;
-  return "campaign " + command + " --store " + store.string();
+  return "campaign " + command + " --store " + shell_word(store.string());
 }
 
 }  // namespace haff::campaign

@@ -3,12 +3,18 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace haff::campaign {
 
 inline constexpr const char* default_store = "campaign.db";
 
-// "campaign run", with --store where it is not the default one.
+// A word as a POSIX shell must be given it: in single quotes where a character of it means
+// something to the shell, and with ./ before a file name that would be taken for an option.
+std::string shell_word(std::string_view word);
+
+// "campaign run", with --store where it is not the default one. The command itself is text for a
+// shell: its words are quoted already.
 std::string command_text(const std::string& command, const std::filesystem::path& store);
 
 }  // namespace haff::campaign

@@ -21,7 +21,7 @@ inline double cpu_seconds_of(pid_t process) {
 }
 
 // All child processes that have ended and were waited for.
-inline double cpu_seconds_of_the_buried() {
+inline double cpu_seconds_of_ended_children() {
   rusage usage{};
   getrusage(RUSAGE_CHILDREN, &usage);
   const auto seconds = [](const timeval& time) {

@@ -1,18 +1,25 @@
-// Signals that ask to stop: Ctrl-C (SIGINT) and SIGTERM.
+// Signals that ask to stop: Ctrl-C (SIGINT), SIGTERM, a terminal that is gone (SIGHUP), and what
+// batch systems send before a time limit (SIGUSR1, SIGUSR2, SIGXCPU).
 //
-// They are only noted; whoever works looks often and leaves in order.
+// They are only noted; the work looks often and stops in order.
 #pragma once
 
 namespace haff::campaign {
 
-// From here on the two signals are noted instead of ending the process, and writing to a pipe
-// nobody reads, or past a file size limit, is an error of the write instead of a signal.
+// From here on these signals are noted instead of ending the process, whatever the parent had
+// blocked; only a SIGHUP that the parent had ignored (nohup) stays ignored. Writing to a pipe that
+// nothing reads, or past a file size limit, is an error of the write instead of a signal. Children
+// that end can be waited for, even where the parent ignored SIGCHLD.
 void note_stop_signals();
 
 // The signal that asked to stop, or 0.
 int stop_signal();
 
-// How often one came: who asks twice is in a hurry.
+// How often one came: the second means "at once".
 int stop_signals();
+
+// Whether there is time to wait for another process to release the store: always before a stop
+// signal, a moment after it.
+bool may_wait_for_locks();
 
 }  // namespace haff::campaign

@@ -65,7 +65,8 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   };
   command
       ->add_option_function<std::string>("--max-time", set_max_time,
-                                         "Stop after this time: 90s, 45m, 1h30m")
+                                         "Stop after this time: 90s, 45m, 1h30m; take no job of "
+                                         "which nothing could be stored by then")
       ->type_name("TIME");
   const auto set_budget = [&options](const std::string& text) {
     options.cpu_budget = seconds_from_text(text);
@@ -102,7 +103,9 @@ CLI::App* add_query(CLI::App& app, QueryCommand& options) {
       ->type_name("TEXT")
       ->required();
   const auto set_format = [&options](const std::string& name) {
-    options.format = name == "csv" ? Format::csv : name == "json" ? Format::json : Format::table;
+    options.format = name == "csv"    ? RowFormat::csv
+                     : name == "json" ? RowFormat::json
+                                      : RowFormat::table;
   };
   command->add_option_function<std::string>("--format", set_format, "How to print the rows")
       ->check(CLI::IsMember({"table", "csv", "json"}))
@@ -242,6 +245,7 @@ CLI::App* add_recall(CLI::App& app, RecallOptions& options) {
 CLI::App* add_worker(CLI::App& app, WorkerCommand& options) {
   auto* command = app.add_subcommand("worker", "")->group("");  // not shown
   command->add_option("DESCRIPTOR", options.report_descriptor)->required();
+  command->add_option("--until", options.until);
   return command;
 }
 

@@ -23,7 +23,7 @@ struct StatusCommand {
 };
 struct QueryCommand {
   std::string sql;
-  Format format = Format::table;
+  RowFormat format = RowFormat::table;
 };
 struct ExportCommand {
   std::int64_t job_id = 0;
@@ -32,6 +32,7 @@ struct VerifyCommand {};
 struct RetryCommand {};
 struct WorkerCommand {  // what `run` starts; not for people
   int report_descriptor = 0;
+  std::optional<double> until;  // on the monotonic clock [s]
 };
 
 using Command = std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest,

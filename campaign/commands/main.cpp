@@ -1,10 +1,13 @@
 // The program `campaign`. Results go to stdout; progress and logs to stderr.
+#include <fmt/format.h>
+
 #include <exception>
 #include <iostream>
 
 #include "campaign/accuracy/cost.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/log.hpp"
+#include "campaign/base/output.hpp"
 #include "campaign/base/printable.hpp"
 #include "campaign/commands/command_line.hpp"
 #include "campaign/commands/export.hpp"
@@ -24,7 +27,8 @@ using namespace haff::campaign;
 
 namespace {
 
-struct Perform {
+// Gives each command what it was asked with, and returns its exit code.
+struct CommandDispatcher {
   const CommandLine& line;
 
   int operator()(const PlanOptions& options) const { return plan(options); }
@@ -34,13 +38,15 @@ struct Perform {
     return query(line.store, command.sql, command.format);
   }
   int operator()(const FigureRequest& request) const {
-    return draw_figures(schema::Reader(line.store), request, std::cout);
+    PrintableStream report;
+    return draw_figures(schema::Reader(line.store), request, report);
   }
   int operator()(const ExportCommand& command) const {
     return export_state(line.store, command.job_id, std::cout);
   }
   int operator()(const CostRequest& request) const {
-    return cost(schema::Reader(line.store), request, std::cout);
+    PrintableStream report;
+    return cost(schema::Reader(line.store), request, report);
   }
   int operator()(const VerifyCommand&) const { return verify(line.store); }
   int operator()(const RetryCommand&) const { return retry(line.store); }
@@ -48,24 +54,23 @@ struct Perform {
   int operator()(const MergeOptions& options) const { return merge(options); }
   int operator()(const RecallOptions& options) const { return recall(options); }
   int operator()(const WorkerCommand& command) const {
-    return work(line.store, command.report_descriptor);
+    std::optional<Deadline> deadline;
+    if (command.until) deadline = Deadline(Deadline::duration(*command.until));
+    return work(line.store, command.report_descriptor, deadline);
   }
 };
 
 int complain(const std::exception& error, int exit_code) {
-  std::cout.flush();
-  std::cerr << "campaign: " << printable_lines(error.what()) << '\n';
+  write_to_stderr(fmt::format("campaign: {}\n", printable_lines(error.what())));
   return exit_code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) try {
+int perform(int argc, char** argv) try {
   const Parsed parsed = parse_command_line(argc, argv);
   if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
   const auto& line = std::get<CommandLine>(parsed);
   set_up_log(line.verbose);
-  return std::visit(Perform{line}, line.command);
+  return std::visit(CommandDispatcher{line}, line.command);
 } catch (const schema::GridError& error) {
   return complain(error, exit_bad_input);
 } catch (const schema::DiskError& error) {
@@ -73,10 +78,17 @@ int main(int argc, char** argv) try {
 } catch (const schema::Damage& error) {
   return complain(error, exit_failed);
 } catch (const schema::StoreError& error) {
-  // No store, not a store, not SQL: something else was named or typed than meant.
+  // No store, not a store, not SQL: another was named or typed than was meant.
   return complain(error, exit_bad_input);
 } catch (const UnknownFigure& error) {
   return complain(error, exit_bad_input);
 } catch (const std::exception& error) {
   return complain(error, exit_failed);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hold_standard_descriptors();
+  return checked_output(perform(argc, argv));
 }

@@ -15,6 +15,7 @@
 #include "campaign/base/job_text.hpp"
 #include "campaign/base/machine.hpp"
 #include "campaign/base/number_text.hpp"
+#include "campaign/base/output.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/planning/expansion.hpp"
 #include "campaign/planning/forecast.hpp"
@@ -102,23 +103,21 @@ void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcome
                count_text(group.outcomes[Outcome::extended]), duration_text(group.cpu_seconds),
                bytes_text(group.disk_bytes)});
   }
-  fmt::print("{}\n", table.text());
-  fmt::print("{} jobs: {}.\n", jobs.size(), counts_text(all, dry_run));
-  fmt::print("Expected in all: {} of CPU time ({}), {} of memory for each worker, {} on disk.\n",
-             duration_text(cpu_seconds), forecast.source(), bytes_text(memory), bytes_text(disk));
+  say("{}\n", table.text());
+  say("{} jobs: {}.\n", jobs.size(), counts_text(all, dry_run));
+  say("Expected in all: {} of CPU time ({}), {} of memory for each worker, {} on disk.\n",
+      duration_text(cpu_seconds), forecast.source(), bytes_text(memory), bytes_text(disk));
 }
 
 // What the targets will take beyond the jobs above, as far as runs that are done tell.
 void print_targets(const std::vector<TargetProgress>& targets) {
   if (targets.empty()) return;
-  fmt::print("\n{}\n", targets_table(targets));
+  say("\n{}\n", targets_table(targets));
   if (const double more = cpu_seconds_unplanned(targets); more > 0)
-    fmt::print("Beyond the jobs above, targets will take some {} of CPU time.\n",
-               duration_text(more));
+    say("Beyond the jobs above, targets will take some {} of CPU time.\n", duration_text(more));
   const auto unknown = std::ranges::find(targets, 0U, &TargetProgress::expected);
   if (unknown != targets.end())
-    fmt::print(
-        "A target's pilot runs, the {} seeds of the grid, come first. They tell how many "
+    say("A target's pilot runs, the {} seeds of the grid, come first. They tell how many "
         "realizations it takes:\nplan again once they are done, or look at `status`; `run` adds "
         "the others by itself.\n",
         unknown->target.pilots.size());
@@ -137,10 +136,10 @@ std::vector<TargetProgress> preview(const schema::Reader& store, const std::vect
 
 void print_next(const PlanOptions& options) {
   if (options.dry_run)
-    fmt::print("Nothing was written. Next: {}\n",
-               command_text(fmt::format("plan {}", options.grid.string()), options.store));
+    say("Nothing was written. Next: {}\n",
+        command_text("plan " + shell_word(options.grid.string()), options.store));
   else
-    fmt::print("Next: {}\n", command_text("run", options.store));
+    say("Next: {}\n", command_text("run", options.store));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "campaign/base/csv.hpp"
 #include "campaign/base/exit_code.hpp"
+#include "campaign/base/output.hpp"
 #include "campaign/base/printable.hpp"
 #include "campaign/base/text_table.hpp"
 #include "schema/store.hpp"
@@ -57,24 +58,24 @@ void print_csv(schema::Query& rows) {
   const auto print = [](const auto& cells, const auto& text) {
     std::vector<std::string> fields;
     for (const auto& cell : cells) fields.push_back(text(cell));
-    fmt::print("{}", csv_line(fields));
+    print_data(csv_line(fields));
   };
   print(rows.columns(), [](const std::string& column) { return csv_field(column); });
   while (const auto row = rows.next()) print(*row, csv_text);
 }
 
 void print_json(schema::Query& rows) {
-  fmt::print("[");
+  print_data("[");
   bool first = true;
   while (const auto row = rows.next()) {
-    fmt::print("{}\n  {{", first ? "" : ",");
+    std::string object = first ? "\n  {" : ",\n  {";
     first = false;
     for (std::size_t c = 0; c < row->size(); ++c)
-      fmt::print("{}{}: {}", c > 0 ? ", " : "", json_quoted(rows.columns()[c]),
-                 json_text((*row)[c]));
-    fmt::print("}}");
+      object += fmt::format("{}{}: {}", c > 0 ? ", " : "", json_quoted(rows.columns()[c]),
+                            json_text((*row)[c]));
+    print_data(object + '}');
   }
-  fmt::print("{}]\n", first ? "" : "\n");
+  print_data(first ? "]\n" : "\n]\n");
 }
 
 void print_table(schema::Query& rows) {
@@ -92,7 +93,7 @@ void print_table(schema::Query& rows) {
     for (const schema::Value& value : row) cells.push_back(table_text(value));
     table.add(std::move(cells));
   }
-  fmt::print("{}", table.text());
+  print_lines(table.text());
 }
 
 }  // namespace
@@ -126,17 +127,17 @@ std::string table_text(const schema::Value& value) {
                     value);
 }
 
-int query(const std::filesystem::path& path, const std::string& sql, Format format) {
+int query(const std::filesystem::path& path, const std::string& sql, RowFormat format) {
   const schema::Reader store(path);
   schema::Query rows = store.query(sql);
   switch (format) {
-    case Format::table:
+    case RowFormat::table:
       print_table(rows);
       break;
-    case Format::csv:
+    case RowFormat::csv:
       print_csv(rows);
       break;
-    case Format::json:
+    case RowFormat::json:
       print_json(rows);
       break;
   }

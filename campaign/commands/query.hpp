@@ -8,10 +8,10 @@
 
 namespace haff::campaign {
 
-enum class Format { table, csv, json };
+enum class RowFormat { table, csv, json };
 
 // Prints the rows; returns an ExitCode. Throws schema::QueryError.
-int query(const std::filesystem::path& store, const std::string& sql, Format format);
+int query(const std::filesystem::path& store, const std::string& sql, RowFormat format);
 
 // One value. Reals have all 17 digits in CSV and JSON and stay reals (1.0, not 1); NULL is empty
 // in CSV and null in JSON; BLOBs are hexadecimal.

@@ -5,6 +5,8 @@
 #include "campaign/base/command_text.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/job_text.hpp"
+#include "campaign/base/output.hpp"
+#include "campaign/base/printable.hpp"
 #include "campaign/state/restore.hpp"
 #include "schema/store.hpp"
 
@@ -37,12 +39,12 @@ int retry(const std::filesystem::path& path) {
     const auto damage = damage_of(store, row);
     if (!damage || !store.restart(row.job_id)) continue;
     ++restarted;
-    fmt::print("job {} ({}) starts again: {}\n", row.job_id, describe(row.job), *damage);
+    say("job {} ({}) starts again: {}\n", row.job_id, describe(row.job), printable(*damage));
   }
   const auto reopened = store.retry_failed();
-  fmt::print("{} failed job{} reopened, {} with a damaged checkpoint start{} again\n", reopened,
-             reopened == 1 ? "" : "s", restarted, restarted == 1 ? "s" : "");
-  if (reopened + restarted > 0) fmt::print("Next: {}\n", command_text("run", path));
+  say("{} failed job{} reopened, {} with a damaged checkpoint start{} again\n", reopened,
+      reopened == 1 ? "" : "s", restarted, restarted == 1 ? "s" : "");
+  if (reopened + restarted > 0) say("Next: {}\n", command_text("run", path));
   return exit_complete;
 }
 

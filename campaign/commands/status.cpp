@@ -15,6 +15,8 @@
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/job_text.hpp"
 #include "campaign/base/number_text.hpp"
+#include "campaign/base/output.hpp"
+#include "campaign/base/printable.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/results/series.hpp"
 #include "campaign/run/abandoned.hpp"
@@ -61,7 +63,7 @@ Picture look(const Reader& store) {
 
 double fraction_done(const schema::Summary& summary) {
   if (summary.expected_cpu_seconds <= 0) return 0;
-  return 1 - summary.remaining_cpu_seconds / summary.expected_cpu_seconds;
+  return summary.reached_cpu_seconds / summary.expected_cpu_seconds;
 }
 
 // What to do now, in the order in which it helps.
@@ -69,12 +71,12 @@ std::vector<std::string> next_commands(const Picture& picture) {
   const schema::Summary& summary = picture.summary;
   std::vector<std::string> commands;
   if (summary.jobs.at(Status::failed) > 0) commands.emplace_back("retry");
-  const bool abandoned = std::any_of(picture.running.begin(), picture.running.end(), is_abandoned);
-  const bool nobody_runs = picture.running.empty() || abandoned;
+  const bool abandoned = std::ranges::any_of(picture.running, is_owner_dead);
+  const bool nothing_runs = picture.running.empty() || abandoned;
   const bool short_of_target = std::ranges::any_of(
       picture.targets,
       [](const TargetProgress& target) { return target.verdict == Verdict::short_of; });
-  if (nobody_runs &&
+  if (nothing_runs &&
       (abandoned || !commands.empty() || short_of_target || summary.jobs.at(Status::pending) > 0))
     commands.emplace_back("run");
   if (summary.jobs.at(Status::done) > 0 && commands.empty() && picture.running.empty())
@@ -123,7 +125,7 @@ std::string running_table(const std::vector<schema::RunningJob>& running) {
     table.add({std::to_string(job.lease.job_id), describe(job.job),
                fmt::format("{:.1f}", job.progress.tau), number_text(job.tau_max),
                std::to_string(job.owner.pid), job.owner.host,
-               is_abandoned(job) ? "is gone; the next run takes the job back" : ""});
+               is_owner_dead(job) ? "is gone; the next run takes the job back" : ""});
   return table.text();
 }
 
@@ -134,7 +136,7 @@ std::string failures_text(const Picture& picture) {
   for (const schema::JobRow& row : picture.jobs) {
     if (row.status == Status::failed || row.status == Status::collapsed)
       text += fmt::format("job {} ({}) {}: {}\n", row.job_id, describe(row.job), name(row.status),
-                          row.error.value_or("for no reason known"));
+                          printable(row.error.value_or("for no reason known")));
     if (const auto id = blocked_by(row, status)) ++blocked[*id];
   }
   for (const auto& [id, count] : blocked)
@@ -199,23 +201,22 @@ std::string predictions_text(const std::vector<TargetProgress>& targets) {
 
 // Series, targets, failures, and what to do.
 void print_findings(const Picture& picture) {
-  if (!picture.series.empty()) fmt::print("{}\n", series_table(picture.series));
-  if (!picture.targets.empty()) fmt::print("{}\n", targets_table(picture.targets));
-  if (const std::string text = predictions_text(picture.targets); !text.empty())
-    fmt::print("{}\n", text);
+  if (!picture.series.empty()) say("{}\n", series_table(picture.series));
+  if (!picture.targets.empty()) say("{}\n", targets_table(picture.targets));
+  if (const std::string text = predictions_text(picture.targets); !text.empty()) say("{}\n", text);
   const std::string failures = failures_text(picture);
-  if (!failures.empty()) fmt::print("{}\n", failures);
-  fmt::print("{}", next_text(picture));
+  if (!failures.empty()) say("{}\n", failures);
+  say("{}", next_text(picture));
 }
 
 void print_picture(const Picture& picture) {
   const schema::Summary& summary = picture.summary;
-  fmt::print("{}: {} jobs, {:.1f} % of the work done\n\n", picture.path.string(),
-             picture.jobs.size(), 100 * fraction_done(summary));
-  fmt::print("{}\n", jobs_table(picture.jobs));
-  fmt::print("{}\n", cpu_time_text(picture));
-  if (picture.worst) fmt::print("{}\n", invariants_text(*picture.worst));
-  if (!picture.running.empty()) fmt::print("{}\n", running_table(picture.running));
+  say("{}: {} jobs, {:.1f} % of the work done\n\n", picture.path.string(), picture.jobs.size(),
+      100 * fraction_done(summary));
+  say("{}\n", jobs_table(picture.jobs));
+  say("{}\n", cpu_time_text(picture));
+  if (picture.worst) say("{}\n", invariants_text(*picture.worst));
+  if (!picture.running.empty()) say("{}\n", running_table(picture.running));
   print_findings(picture);
 }
 
@@ -245,7 +246,7 @@ ordered_json running_json(const schema::RunningJob& job) {
                  {"tau_max", job.tau_max},
                  {"host", job.owner.host},
                  {"pid", job.owner.pid},
-                 {"abandoned", is_abandoned(job)}});
+                 {"abandoned", is_owner_dead(job)}});
   return object;
 }
 
@@ -345,7 +346,8 @@ ordered_json picture_json(const Picture& picture) {
 int status(const std::filesystem::path& path, bool json) {
   const Picture picture = look(Reader(path));
   if (json)
-    fmt::print("{}\n", picture_json(picture).dump(2));
+    print_data(picture_json(picture).dump(2, ' ', false, ordered_json::error_handler_t::replace) +
+               '\n');
   else
     print_picture(picture);
   return exit_complete;

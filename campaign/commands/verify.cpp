@@ -13,6 +13,8 @@
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/job_text.hpp"
 #include "campaign/base/number_text.hpp"
+#include "campaign/base/output.hpp"
+#include "campaign/base/printable.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/job/measurement.hpp"
 #include "campaign/job/timetable.hpp"
@@ -238,13 +240,12 @@ int verify(const std::filesystem::path& path) {
   } catch (const schema::StoreError& error) {
     faults.emplace_back(error.what());
   }
-  for (const std::string& fault : faults) fmt::print("{}\n", fault);
+  for (const std::string& fault : faults) say("{}\n", printable(fault));
   if (faults.empty()) {
-    fmt::print("{}: sound ({})\n", path.string(), size);
+    say("{}: sound ({})\n", path.string(), size);
     return exit_complete;
   }
-  fmt::print(
-      "{}: {} fault{} found. Damaged checkpoints are never used; {} computes their jobs "
+  say("{}: {} fault{} found. Damaged checkpoints are never used; {} computes their jobs "
       "again\n",
       path.string(), faults.size(), faults.size() == 1 ? "" : "s", command_text("retry", path));
   return exit_failed;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <stdexcept>
 #include <utility>
 
@@ -23,10 +24,11 @@ using namespace std::chrono_literals;
 // Some 10 ms of a gas in cache, 100 ms of a large and clustered one. [pair collisions]
 constexpr std::int64_t stretch = 20'000;
 
-constexpr auto tell_every = 200ms;  // progress bars
-constexpr auto renew_every = 5s;    // the lease, and tau as `campaign status` shows it
+constexpr auto report_every = 200ms;  // progress bars
+constexpr auto renew_every = 5s;      // the lease, and tau as `campaign status` shows it
 
-// Who is asked to stop may go on as far as this to keep the work since the last checkpoint. [s]
+// A worker that is asked to stop may go on for this long to keep the work since the last
+// checkpoint. [s]
 constexpr double patience = 1.0;
 
 }  // namespace
@@ -61,14 +63,14 @@ void Attempt::begin(const engine::State& state) {
   gas_.emplace(model_of(job()), state);
   speed_from_ = gas_->collisions();
   speed_since_ = renewed_ = Clock::now();
-  tell();
+  report_progress();
 }
 
 bool Attempt::advance_to(std::int64_t collisions) {
   while (gas_->collisions() < collisions) {
     gas_->run_to(std::min(collisions, gas_->collisions() + stretch));
-    tell();
-    if (is_asked_to_leave() && !is_near_synchronization()) return false;
+    report_progress();
+    if (is_asked_to_leave() && !may_go_on_to_synchronization()) return false;
   }
   return true;
 }
@@ -84,15 +86,20 @@ void Attempt::sample(double tau) {
 }
 
 void Attempt::commit(double tau) {
-  schema::Commit commit = news(tau);
+  schema::Commit commit = pending_commit(tau);
   commit.checkpoint = checkpoint(tau);
   store_.commit(claim_.lease, commit);
   committed_ = samples_.size();
   views_ = {};
+  has_stored_ = true;
 }
 
 bool Attempt::is_asked_to_leave() const {
   return stop_signal() != 0;
+}
+
+bool Attempt::may_go_on_to_synchronization() const {
+  return (stop_signal() == SIGUSR1 && !has_stored_) || is_near_synchronization();
 }
 
 Ending Attempt::leave() {
@@ -102,14 +109,14 @@ Ending Attempt::leave() {
 
 Ending Attempt::finish(std::optional<double> synchronization_tau,
                        const std::optional<schema::Results>& results) {
-  schema::Commit last = news(synchronization_tau.value_or(claim_.tau_max));
+  schema::Commit last = pending_commit(synchronization_tau.value_or(claim_.tau_max));
   if (synchronization_tau) last.checkpoint = checkpoint(*synchronization_tau);
   store_.finish(claim_.lease, last, results, claim_.tau_max);
   return Ending::finished;
 }
 
 Ending Attempt::collapse(const std::string& what) {
-  store_.collapse(claim_.lease, news(tau()), what);
+  store_.collapse(claim_.lease, pending_commit(tau()), what);
   return Ending::collapsed;
 }
 
@@ -118,10 +125,10 @@ std::string Attempt::place() const {
   return fmt::format("seed {}, tau {:.6g}, {} collisions", job().seed, tau(), gas_->collisions());
 }
 
-void Attempt::tell() {
+void Attempt::report_progress() {
   const auto now = Clock::now();
-  if (now - told_ >= tell_every) {
-    told_ = now;
+  if (now - reported_ >= report_every) {
+    reported_ = now;
     reporter_.send(ProgressReport{claim_.lease.job_id, describe(job()), tau(), claim_.tau_max,
                                   collisions_per_second()});
   }
@@ -153,7 +160,7 @@ schema::Progress Attempt::progress(double tau) const {
           .cpu_seconds = claim_.cpu_seconds + cpu_seconds() - cpu_at_start_};
 }
 
-schema::Commit Attempt::news(double tau) const {
+schema::Commit Attempt::pending_commit(double tau) const {
   const engine::Invariants seen = gas_->invariants();
   return {.samples = {samples_.begin() + static_cast<std::ptrdiff_t>(committed_), samples_.end()},
           .profiles = views_.profiles,

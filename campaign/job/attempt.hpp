@@ -35,7 +35,8 @@ class Attempt {
   // Start from this state, with the samples the store has up to it.
   void begin(const engine::State& state);
 
-  // False if asked to stop when there is no synchronization near at which to store the state.
+  // False if asked to stop, unless a synchronization is near at which the state can be stored, or a
+  // limit (SIGUSR1) found that nothing of this attempt is stored yet.
   [[nodiscard]] bool advance_to(std::int64_t collisions);
 
   void sample(double tau);  // and the profiles and fields that go with it
@@ -56,13 +57,15 @@ class Attempt {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void tell();
+  void report_progress();
+  // Asked to stop: whether to collide on to the next synchronization first.
+  bool may_go_on_to_synchronization() const;
   bool is_near_synchronization() const;
   double collisions_per_second() const;
   double tau() const;
   schema::Progress progress(double tau) const;
   // What the store does not have yet, but for the state.
-  schema::Commit news(double tau) const;
+  schema::Commit pending_commit(double tau) const;
   schema::Checkpoint checkpoint(double tau) const;
 
   schema::Store& store_;
@@ -74,8 +77,9 @@ class Attempt {
   Views views_;                // since the last commit
 
   double cpu_at_start_;
-  Clock::time_point told_, renewed_, speed_since_;
+  Clock::time_point reported_, renewed_, speed_since_;
   std::int64_t speed_from_ = 0;
+  bool has_stored_ = false;
 };
 
 }  // namespace haff::campaign

@@ -1,23 +1,14 @@
 #include "campaign/run/abandoned.hpp"
 
-#include <ctime>
-#include <string>
-
 #include "campaign/run/process.hpp"
 
 namespace haff::campaign {
-namespace {
 
-// From UTC in ISO 8601, as the store writes it.
-double seconds_since(const std::string& time) {
-  std::tm parts{};
-  if (strptime(time.c_str(), "%Y-%m-%dT%H:%M:%S", &parts) == nullptr) return 0;
-  return std::difftime(std::time(nullptr), timegm(&parts));
+bool is_owner_dead(const schema::RunningJob& job) {
+  return life_of(job.owner) == Life::dead;
 }
 
-}  // namespace
-
-bool is_abandoned(const schema::RunningJob& job) {
+bool LeaseWatch::is_abandoned(const schema::RunningJob& job, Clock::time_point now) {
   switch (life_of(job.owner)) {
     case Life::alive:
       return false;
@@ -26,7 +17,10 @@ bool is_abandoned(const schema::RunningJob& job) {
     case Life::unknown:
       break;
   }
-  return seconds_since(job.renewed) > lease_seconds;
+  Seen& seen = seen_.try_emplace(job.lease.job_id).first->second;
+  if (seen.token != job.lease.token || seen.renewed != job.renewed)
+    seen = {.token = job.lease.token, .renewed = job.renewed, .since = now};
+  return now - seen.since > lease_time;
 }
 
 }  // namespace haff::campaign

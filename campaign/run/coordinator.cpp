@@ -37,6 +37,11 @@ constexpr int hopeless = 5;
 // Kills in a row, without progress, that do not cost a job an attempt.
 constexpr int excused_kills = 10;
 
+std::optional<Deadline> deadline_of(const RunOptions& options, Clock::time_point start) {
+  if (!options.max_seconds) return std::nullopt;
+  return Deadline(start) + std::chrono::duration<double>(*options.max_seconds);
+}
+
 class Coordinator {
  public:
   Coordinator(schema::Store& store, const RunOptions& options, Clock::time_point start,
@@ -55,19 +60,18 @@ class Coordinator {
     start_workers();
     while (is_anyone_alive()) {
       listen();
-      bury_the_dead();
+      reap_the_dead();
       look_after_time();
       if (!is_stopping()) start_workers();
-      if (Clock::now() - looked_ >= look_after_store) {
+      if (!is_stopping() && Clock::now() - looked_ >= look_after_store) {
         look_after_abandoned();
         ledger_.refresh(store_);
       }
-      display_.show(ledger_.totals());
+      if (display_.is_due()) display_.show(ledger_.totals());
     }
   }
 
-  bool is_over_limit() const { return over_limit_; }
-  bool has_store_error() const { return store_error_; }
+  RoundEnd end() const { return end_; }
 
  private:
   bool is_stopping() const { return stopping_since_.has_value(); }
@@ -80,7 +84,8 @@ class Coordinator {
   void start_workers() {
     for (std::size_t k = 0; k < workers_.size(); ++k)
       if (!workers_[k] && !has_finished_[k])
-        workers_[k] = std::make_unique<WorkerProcess>(options_.store);
+        workers_[k] =
+            std::make_unique<WorkerProcess>(options_.store, deadline_of(options_, start_));
   }
 
   void listen() {
@@ -106,26 +111,35 @@ class Coordinator {
     }
   }
 
-  void bury_the_dead() {
+  void reap_the_dead() {
     for (std::size_t k = 0; k < workers_.size(); ++k) {
       if (!workers_[k] || !workers_[k]->has_ended()) continue;
       take_reports(k);
       display_.set(k, std::nullopt);
       const auto held = held_by(workers_[k]->identity());
-      const WorkerProcess::End end = workers_[k]->bury();
+      const WorkerProcess::End end = workers_[k]->reap();
       workers_[k].reset();
-      if (end.signal == 0 && end.exit_code == worker_has_finished) {
+      if (end.is_exit(worker_has_finished)) {
         has_finished_[k] = true;
-      } else if (end.signal == 0 && end.exit_code == worker_cannot_use_store) {
-        store_error_ = true;
+      } else if (end.is_exit(worker_has_no_time)) {
+        has_finished_[k] = true;
+        note_lack_of_time();
+      } else if (end.is_exit(worker_cannot_use_store)) {
+        end_.store_error = true;
         give_back(held);
-        stop();
-      } else if (end.signal == 0 && end.exit_code == worker_was_stopped) {
-        // By us, or by somebody who meant this one only: then it is replaced.
+        stop(SIGTERM);
+      } else if (end.is_exit(worker_was_stopped)) {
+        // By us, or by a signal meant for this worker alone: then it is replaced.
+        give_back(held);
       } else {
         charge(held, end);
       }
     }
+  }
+
+  void note_lack_of_time() {
+    end_.over_limit = true;
+    end_.seconds_needed = least_seconds_needed(store_);
   }
 
   std::vector<schema::RunningJob> held_by(const schema::Owner& worker) const {
@@ -134,19 +148,26 @@ class Coordinator {
     return jobs;
   }
 
-  // A crash costs the job an attempt, unless it was us who killed the worker to leave in time.
+  // A crash costs the job an attempt, unless the coordinator killed the worker to stop in time.
   void charge(const std::vector<schema::RunningJob>& held, const WorkerProcess::End& end) {
     if (held.empty()) look_out_for_hopelessness(end);
     for (const schema::RunningJob& job : held) {
+      if (end.killed_by_us || is_stopping()) {
+        display_.log(Level::info,
+                     fmt::format("job {} ({}): {}; it goes on from its last checkpoint",
+                                 job.lease.job_id, describe(job.job), end.text()));
+        continue;
+      }
       const std::string error =
           fmt::format("{} (seed {}, after tau {:.6g}, {} collisions)", end.text(), job.job.seed,
                       job.progress.tau, job.progress.collisions);
-      const bool is_excused = is_stopping() || (end.signal == SIGKILL && excuses_kill(job));
+      const bool is_excused = end.signal == SIGKILL && excuses_kill(job);
       const bool for_good = is_excused ? give_back(job.lease) : fail(job.lease, error);
       display_.log(for_good ? Level::error : Level::warning,
                    fmt::format("job {} ({}){}: {}", job.lease.job_id, describe(job.job),
                                for_good ? " failed" : "", error));
     }
+    if (end.killed_by_us || is_stopping()) give_back(held);
   }
 
   void look_out_for_hopelessness(const WorkerProcess::End& end) {
@@ -160,15 +181,9 @@ class Coordinator {
   // be the reason, by the memory it takes.
   bool excuses_kill(const schema::RunningJob& job) {
     Kills& kills = kills_[job.lease.job_id];
-    const double tau = stored_tau(job.lease.job_id);
+    const double tau = store_.stored_tau(job.lease.job_id);
     if (tau > kills.tau) kills = {.tau = tau, .count = 0};
     return ++kills.count <= excused_kills;
-  }
-
-  double stored_tau(std::int64_t job_id) const {
-    for (const schema::CheckpointInfo& checkpoint : store_.checkpoints())
-      if (checkpoint.job_id == job_id) return checkpoint.tau;
-    return 0;
   }
 
   // What a worker could not store any more; if we cannot either, the next run does.
@@ -192,11 +207,11 @@ class Coordinator {
     }
   }
 
-  // Our own dead are looked after when they are buried.
+  // Those of this run are looked after when their workers are reaped.
   void look_after_abandoned() {
     looked_ = Clock::now();
     for (const schema::RunningJob& job : store_.running()) {
-      if (is_mine(job.owner) || !is_abandoned(job) || !store_.reclaim(job.lease)) continue;
+      if (is_mine(job.owner) || !leases_.is_abandoned(job) || !store_.reclaim(job.lease)) continue;
       display_.log(Level::info,
                    fmt::format("job {} ({}): its owner, process {} on {}, is gone; taken back",
                                job.lease.job_id, describe(job.job), job.owner.pid, job.owner.host));
@@ -213,36 +228,41 @@ class Coordinator {
     if (!is_stopping() && stop_signal() != 0) {
       display_.log(Level::info,
                    "stopping: workers store what they can (once more to stop at once)");
-      stop();
+      stop(SIGTERM);
     }
     if (!is_stopping() && options_.max_seconds &&
         now - start_ > std::chrono::duration<double>(*options_.max_seconds)) {
-      over_limit_ = true;
+      end_.over_limit = true;
       display_.log(Level::info, "stopping: --max-time is over");
-      stop();
+      stop(SIGUSR1);
     }
     if (!is_stopping() && options_.cpu_budget && cpu_spent() > *options_.cpu_budget) {
-      over_limit_ = true;
+      end_.over_limit = true;
       display_.log(Level::info, "stopping: --budget is spent");
-      stop();
+      stop(SIGUSR1);
     }
-    if (is_stopping() && (stop_signals() > 1 || now - *stopping_since_ > grace))
+    // A limit lets each worker store something first; a signal does not.
+    if (is_stopping() && stop_signal() != 0) stop(SIGTERM);
+    if (hurried_since_ && (stop_signals() > 1 || now - *hurried_since_ > grace))
       for (const auto& worker : workers_)
-        if (worker) worker->signal(SIGKILL);
+        if (worker) worker->kill_now();
   }
 
   double cpu_spent() const {
-    double sum = cpu_seconds_of_the_buried();
+    double sum = cpu_seconds_of_ended_children();
     for (const auto& worker : workers_)
       if (worker) sum += cpu_seconds_of(static_cast<pid_t>(worker->identity().pid));
     return sum;
   }
 
-  void stop() {
-    if (is_stopping()) return;
-    stopping_since_ = Clock::now();
+  // SIGTERM: workers have `grace` to store what they can. SIGUSR1: as long as it takes to store a
+  // first checkpoint, so that a run that is stopped by a limit has not worked for nothing.
+  void stop(int signal) {
+    if (hurried_since_ || (signal == SIGUSR1 && is_stopping())) return;
+    if (!is_stopping()) stopping_since_ = Clock::now();
+    if (signal == SIGTERM) hurried_since_ = Clock::now();
     for (const auto& worker : workers_)
-      if (worker) worker->signal(SIGTERM);
+      if (worker) worker->signal(signal);
   }
 
   schema::Store& store_;
@@ -258,9 +278,9 @@ class Coordinator {
     int count = 0;
   };
   std::map<std::int64_t, Kills> kills_;  // by job
-  bool over_limit_ = false;
-  bool store_error_ = false;
-  std::optional<Clock::time_point> stopping_since_;
+  RoundEnd end_;
+  LeaseWatch leases_;
+  std::optional<Clock::time_point> stopping_since_, hurried_since_;
   Clock::time_point looked_;
 };
 
@@ -269,12 +289,17 @@ class Coordinator {
 RoundEnd run_round(schema::Store& store, const RunOptions& options,
                    std::chrono::steady_clock::time_point start) {
   const schema::Summary before = store.summary();
-  const auto useful = before.claimable + before.waiting + before.jobs.at(schema::Status::running);
+  const auto running = before.jobs.at(schema::Status::running);
+  const auto useful = before.claimable + before.waiting + running;
   if (useful == 0) return {};
+  // Nothing is begun of which nothing could be stored.
+  const auto fit = what_fits(deadline_of(options, start));
+  if (fit && running == 0 && before.claimable > 0 && !store.has_claimable(fit))
+    return {.over_limit = true, .seconds_needed = least_seconds_needed(store)};
   const auto workers = std::min<std::int64_t>(options.workers, useful);
   Coordinator coordinator(store, options, start, static_cast<std::size_t>(workers));
   coordinator.run();
-  return {coordinator.is_over_limit(), coordinator.has_store_error()};
+  return coordinator.end();
 }
 
 }  // namespace haff::campaign

@@ -21,6 +21,9 @@ struct RunOptions {
 struct RoundEnd {
   bool over_limit = false;   // --max-time or --budget
   bool store_error = false;  // a worker could not use the store
+  // Jobs were left because nothing of them could be stored within --max-time: what the shortest of
+  // them needs. [s]
+  std::optional<double> seconds_needed;
 };
 
 // Runs all that is pending and returns when all workers have ended. `start` is that of the whole

@@ -7,9 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "campaign/base/duration.hpp"
+#include "campaign/base/output.hpp"
+#include "campaign/base/printable.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -19,9 +20,18 @@ using namespace std::chrono_literals;
 constexpr auto redraw_every = 200ms;
 constexpr auto line_every = 10s;
 
-std::size_t terminal_width() {
+struct TerminalSize {
+  std::size_t columns = 80;
+  std::size_t lines = 24;
+};
+
+TerminalSize terminal_size() {
   winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  TerminalSize found;
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0) return found;
+  if (size.ws_col > 0) found.columns = size.ws_col;
+  if (size.ws_row > 0) found.lines = size.ws_row;
+  return found;
 }
 
 std::string rate_text(double per_second) {
@@ -60,10 +70,12 @@ spdlog::level::level_enum spdlog_level(LogReport::Level level) {
 }  // namespace
 
 std::vector<std::string> bars(const std::vector<std::optional<ProgressReport>>& workers,
-                              const Totals& totals, std::size_t width) {
+                              const Totals& totals, std::size_t width, std::size_t height) {
   constexpr std::size_t bar_width = 20;
   std::vector<std::string> lines;
+  const bool each_has_a_line = workers.size() + 1 <= height;
   for (const auto& worker : workers) {
+    if (!each_has_a_line) break;
     if (!worker) {
       lines.emplace_back(bar(0, bar_width) + " waiting");
       continue;
@@ -71,7 +83,7 @@ std::vector<std::string> bars(const std::vector<std::optional<ProgressReport>>& 
     lines.push_back(fmt::format("{} tau {:6.1f}/{:<5g} {}  job {} {}",
                                 bar(worker->tau / worker->tau_max, bar_width), worker->tau,
                                 worker->tau_max, rate_text(worker->collisions_per_second),
-                                worker->job_id, worker->job));
+                                worker->job_id, printable(worker->job)));
   }
   lines.push_back(bar(totals.fraction, bar_width) + ' ' + totals_text(totals));
   for (std::string& line : lines) line.resize(std::min(line.size(), width));
@@ -112,21 +124,26 @@ void Display::log(LogReport::Level level, const std::string& text) {
   spdlog::log(spdlog_level(level), "{}", text);
 }
 
+bool Display::is_due() const {
+  const auto since = std::chrono::steady_clock::now() - shown_;
+  return terminal_ ? since >= redraw_every : since >= line_every;
+}
+
 void Display::show(const Totals& totals) {
-  const auto now = std::chrono::steady_clock::now();
-  if (terminal_ ? now - shown_ < redraw_every : now - shown_ < line_every) return;
-  shown_ = now;
+  shown_ = std::chrono::steady_clock::now();
   terminal_ ? draw_bars(totals) : write_line(totals);
 }
 
 void Display::draw_bars(const Totals& totals) {
   erase_bars();
+  // One column stays free, since a full line would wrap on some terminals, and one line, on which
+  // the cursor stands.
+  const TerminalSize size = terminal_size();
+  const auto lines = bars(workers_, totals, size.columns - 1, size.lines - 1);
   std::string picture;
-  // One column stays free: a full line would wrap on some terminals.
-  for (const std::string& line : bars(workers_, totals, terminal_width() - 1))
-    picture += line + '\n';
-  std::fputs(picture.c_str(), stderr);
-  lines_drawn_ = workers_.size() + 1;
+  for (const std::string& line : lines) picture += line + '\n';
+  write_to_stderr(picture);
+  lines_drawn_ = lines.size();
 }
 
 void Display::write_line(const Totals& totals) const {
@@ -135,7 +152,7 @@ void Display::write_line(const Totals& totals) const {
 
 void Display::erase_bars() {
   if (lines_drawn_ == 0) return;
-  fmt::print(stderr, "\033[{}A\r\033[J", lines_drawn_);
+  write_to_stderr("\033[" + std::to_string(lines_drawn_) + "A\r\033[J");
   lines_drawn_ = 0;
 }
 

@@ -1,6 +1,7 @@
 // What a run shows of itself on stderr: a bar for each worker where stderr is a terminal, a plain
 // line from time to time where it is a file or a pipe. Log lines go through here too, so that
-// they and the bars do not write over each other.
+// they and the bars do not write over each other. Nothing here throws when the terminal is gone:
+// a run goes on without being seen, until SIGHUP stops it in order.
 #pragma once
 
 #include <chrono>
@@ -30,7 +31,8 @@ class Display {
   void set(std::size_t worker, std::optional<ProgressReport> report);
   void log(LogReport::Level level, const std::string& text);
 
-  // Shows this if it is time to.
+  // Whether it is time to show the totals again.
+  bool is_due() const;
   void show(const Totals& totals);
 
  private:
@@ -44,9 +46,10 @@ class Display {
   std::chrono::steady_clock::time_point shown_;
 };
 
-// The lines of one picture, each at most `width` characters.
+// The lines of one picture, each at most `width` characters: one a worker and one for the whole.
+// Where they are more than `height` lines, that for the whole alone.
 std::vector<std::string> bars(const std::vector<std::optional<ProgressReport>>& workers,
-                              const Totals& totals, std::size_t width);
+                              const Totals& totals, std::size_t width, std::size_t height);
 // The same in one line.
 std::string plain_line(const std::vector<std::optional<ProgressReport>>& workers,
                        const Totals& totals);

@@ -5,37 +5,62 @@
 namespace haff::campaign {
 namespace {
 
+// Reading all jobs may take this part of the time at most.
+constexpr double share_of_reading = 0.02;
+
 // Without an expectation: a million collisions a second. Only ratios count.
 double weight_of(const schema::JobRow& row) {
   return row.expected_cpu_seconds.value_or(0.5e-6 * row.tau_max * row.job.particles);
 }
 
-bool is_over(schema::Status status) {
-  return status != schema::Status::pending && status != schema::Status::running;
+// Nothing is left to do. Of a failed job, what it had stored counts.
+bool is_complete(schema::Status status) {
+  return status == schema::Status::done || status == schema::Status::collapsed;
 }
 
 }  // namespace
 
-Ledger::Ledger(const schema::Reader& store) : start_(std::chrono::steady_clock::now()) {
-  refresh(store);
+Ledger::Ledger(const schema::Reader& store) : start_(Clock::now()) {
+  read_all(store);
   weight_at_start_ = done_weight();
 }
 
 void Ledger::refresh(const schema::Reader& store) {
-  for (const schema::JobRow& row : store.jobs()) {
-    Entry& entry = jobs_[row.job_id];
-    const double stored = std::min(1.0, row.progress.tau / row.tau_max);
-    // Between two commits a running job is further than the store knows.
-    const bool goes_on = row.status == schema::Status::running && entry.status == row.status;
-    entry.fraction = is_over(row.status) ? 1 : goes_on ? std::max(entry.fraction, stored) : stored;
-    entry.weight = weight_of(row);
-    entry.status = row.status;
-  }
+  std::set<std::int64_t> running;
+  for (const schema::RunningJob& job : store.running()) running.insert(job.lease.job_id);
+  restless_.insert(running.begin(), running.end());
+  for (const std::int64_t id : restless_) update(store.job(id));
+  restless_ = std::move(running);
+  if (store.job_counts() != counts_ && Clock::now() >= next_read_of_all_) read_all(store);
+}
+
+void Ledger::read_all(const schema::Reader& store) {
+  const auto before = Clock::now();
+  for (const schema::JobRow& row : store.jobs()) update(row);
+  const auto now = Clock::now();
+  next_read_of_all_ =
+      now + std::chrono::duration_cast<Clock::duration>((now - before) / share_of_reading);
+}
+
+void Ledger::update(const schema::JobRow& row) {
+  const auto [place, is_new] = jobs_.try_emplace(row.job_id);
+  Entry& entry = place->second;
+  if (!is_new) --counts_[entry.status];
+  ++counts_[row.status];
+  const double stored = std::min(1.0, row.progress.tau / row.tau_max);
+  // Between two commits a running job is further than the store knows.
+  const bool goes_on = row.status == schema::Status::running && entry.status == row.status;
+  entry.fraction = is_complete(row.status) ? 1
+                   : goes_on               ? std::max(entry.fraction, stored)
+                                           : stored;
+  entry.weight = weight_of(row);
+  entry.status = row.status;
 }
 
 void Ledger::note(const ProgressReport& report) {
+  restless_.insert(report.job_id);
   const auto entry = jobs_.find(report.job_id);
-  if (entry != jobs_.end() && !is_over(entry->second.status))
+  if (entry != jobs_.end() && !is_complete(entry->second.status))
     entry->second.fraction = std::min(1.0, report.tau / report.tau_max);
 }
 
@@ -50,7 +75,7 @@ Totals Ledger::totals() const {
   }
   const double done = done_weight();
   if (weight > 0) totals.fraction = done / weight;
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+  const std::chrono::duration<double> elapsed = Clock::now() - start_;
   if (done > weight_at_start_)
     totals.seconds_left = elapsed.count() * (weight - done) / (done - weight_at_start_);
   return totals;

@@ -36,7 +36,8 @@ struct Stat {
   std::int64_t start = 0;  // clock ticks since boot
 };
 
-// Fields 3 and 22 of proc(5). What its parent has not yet buried has a start, but no life.
+// Fields 3 and 22 of proc(5). A process that has ended and was not yet reaped has a start, but
+// no life.
 Stat stat_of(std::int64_t id) {
   std::ifstream file(fmt::format("/proc/{}/stat", id));
   std::string line;

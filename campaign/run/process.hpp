@@ -1,4 +1,4 @@
-// Who a process is, and whether it still lives.
+// What tells a process from every other, and whether it still lives.
 //
 // A process id alone is not enough: ids are used again, machines restart, containers number
 // their processes on their own. So the owner of a job is named by its host, the boot of the
@@ -12,7 +12,7 @@
 namespace haff::campaign {
 
 schema::Owner this_process();
-schema::Owner child_process(pid_t id);  // not yet buried
+schema::Owner child_process(pid_t id);  // not yet reaped
 
 // Nothing can be told about another host, nor about another container on this one.
 enum class Life { alive, dead, unknown };

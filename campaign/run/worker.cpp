@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <new>
@@ -25,8 +26,22 @@ namespace {
 
 using Level = LogReport::Level;
 
-// What a worker with nothing to do waits before it looks again.
+// What a worker with nothing to do waits before it looks again. Looking is reading: an idle worker
+// takes no write lock.
 constexpr std::chrono::milliseconds idle{100};
+
+// Expected CPU times are of this machine when it is not busy, and of a gas before it clusters.
+constexpr double margin = 1.5;
+
+// Returns when there is a job to take, when the store has changed so that there may be none to wait
+// for, or when asked to stop.
+void wait_for_job(const schema::Store& store, std::optional<Deadline> deadline) {
+  for (const auto seen = store.change_counter(); stop_signal() == 0;) {
+    if (store.has_claimable(what_fits(deadline))) return;
+    std::this_thread::sleep_for(idle);
+    if (store.change_counter() != seen) return;
+  }
+}
 
 std::string name_of(const schema::Claim& claim) {
   return fmt::format("job {} ({})", claim.lease.job_id, describe(claim.job));
@@ -85,22 +100,45 @@ void work_on(schema::Store& store, const schema::Claim& claim, const Reporter& r
 
 }  // namespace
 
-int work(const std::filesystem::path& path, int report_descriptor) {
+std::optional<schema::Fit> what_fits(std::optional<Deadline> deadline) {
+  if (!deadline) return std::nullopt;
+  const auto left = *deadline - std::chrono::steady_clock::now();
+  return schema::Fit{.seconds = std::max(0.0, left.count()) / margin,
+                     .tau = engine::synchronization_period};
+}
+
+std::optional<double> least_seconds_needed(const schema::Reader& store) {
+  const auto expected = store.least_seconds_to(engine::synchronization_period);
+  return expected ? std::optional(margin * *expected) : std::nullopt;
+}
+
+int work(const std::filesystem::path& path, int report_descriptor,
+         std::optional<Deadline> deadline) {
   note_stop_signals();
   const Reporter reporter(report_descriptor);
   try {
     schema::Store store = schema::Store::open(path);
+    store.wait_for_locks_while(may_wait_for_locks);
     const schema::Owner me = this_process();
     while (stop_signal() == 0) {
-      if (const auto claim = store.claim(me, code_version())) {
+      const auto fit = what_fits(deadline);
+      if (const auto claim = store.claim(me, code_version(), fit)) {
         work_on(store, *claim, reporter);
         continue;
       }
       reporter.send(IdleReport{});
-      if (!may_have_work(store.summary())) return worker_has_finished;
-      std::this_thread::sleep_for(idle);
+      const schema::Summary summary = store.summary();
+      if (!may_have_work(summary)) return worker_has_finished;
+      if (deadline && summary.waiting == 0 && !store.has_claimable(fit) && summary.claimable > 0)
+        return worker_has_no_time;
+      wait_for_job(store, deadline);
     }
     return worker_was_stopped;
+  } catch (const schema::Locked& error) {
+    // Asked to stop while another process keeps the store: the job is taken back by the next run.
+    if (stop_signal() != 0) return worker_was_stopped;
+    reporter.send(LogReport{Level::error, error.what()});
+    return worker_cannot_use_store;
   } catch (const schema::StoreError& error) {
     reporter.send(LogReport{Level::error, error.what()});
     return worker_cannot_use_store;

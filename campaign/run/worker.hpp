@@ -1,7 +1,11 @@
 // A worker: a process that takes one job after another until none is left.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
+
+#include "schema/store.hpp"
 
 namespace haff::campaign {
 
@@ -9,8 +13,23 @@ namespace haff::campaign {
 inline constexpr int worker_has_finished = 0;       // no job is left
 inline constexpr int worker_was_stopped = 75;       // by a signal; EX_TEMPFAIL of sysexits.h
 inline constexpr int worker_cannot_use_store = 74;  // disk full, locked; EX_IOERR
+inline constexpr int worker_has_no_time = 76;  // of no job that is left could anything be stored
 
-// Works on the store; reports go to this file descriptor. Returns an exit code of the above.
-int work(const std::filesystem::path& store, int report_descriptor);
+// When the run must end, on the clock that all processes of a host share.
+using Deadline = std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>>;
+
+// What can be stored of a job before the deadline, if there is one: as far as its next
+// synchronization, or its end.
+std::optional<schema::Fit> what_fits(std::optional<Deadline> deadline);
+
+// The time that the shortest of the jobs that can be claimed needs to store something, with a
+// margin for what the expectation leaves out (a busy machine, a clustered gas). [s]
+std::optional<double> least_seconds_needed(const schema::Reader& store);
+
+// Works on the store; reports go to this file descriptor. Stops in order on the signals of
+// base/signals.hpp; on SIGUSR1 only after a first checkpoint of its job is stored. Takes no job of
+// which nothing could be stored before the deadline. Returns an exit code of the above.
+int work(const std::filesystem::path& store, int report_descriptor,
+         std::optional<Deadline> deadline);
 
 }  // namespace haff::campaign

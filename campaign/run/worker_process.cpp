@@ -33,13 +33,17 @@ std::system_error system_error(const char* what) {
 
 }  // namespace
 
-WorkerProcess::WorkerProcess(const std::filesystem::path& store) {
+WorkerProcess::WorkerProcess(const std::filesystem::path& store, std::optional<Deadline> deadline) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw system_error("cannot make a pipe for a worker");
   const auto [read_end, write_end] = ends;
 
   std::vector<std::string> words{"campaign", "--store", store.string(), "worker",
                                  std::to_string(write_end)};
+  if (deadline) {
+    words.emplace_back("--until");
+    words.push_back(fmt::format("{}", deadline->time_since_epoch().count()));
+  }
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
@@ -62,8 +66,8 @@ WorkerProcess::WorkerProcess(const std::filesystem::path& store) {
 
 WorkerProcess::~WorkerProcess() {
   if (id_ > 0) {
-    signal(SIGKILL);
-    bury();
+    kill_now();
+    reap();
   }
   if (reports_ >= 0) close(reports_);
 }
@@ -72,6 +76,7 @@ WorkerProcess::WorkerProcess(WorkerProcess&& other) noexcept
     : id_(std::exchange(other.id_, 0)),
       identity_(std::move(other.identity_)),
       reports_(std::exchange(other.reports_, -1)),
+      killed_(other.killed_),
       unfinished_line_(std::move(other.unfinished_line_)) {}
 
 std::vector<Report> WorkerProcess::take_reports() {
@@ -94,27 +99,38 @@ void WorkerProcess::signal(int number) const {
   if (id_ > 0) kill(id_, number);
 }
 
-bool WorkerProcess::has_ended() const {
-  siginfo_t info{};
-  return id_ > 0 &&
-         waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-         info.si_pid == id_;
+void WorkerProcess::kill_now() {
+  killed_ = true;
+  signal(SIGKILL);
 }
 
-WorkerProcess::End WorkerProcess::bury() {
+bool WorkerProcess::has_ended() const {
+  if (id_ <= 0) return false;
+  siginfo_t info{};
+  if (waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) != 0)
+    return errno == ECHILD;
+  return info.si_pid == id_;
+}
+
+WorkerProcess::End WorkerProcess::reap() {
   int status = 0;
-  while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+  pid_t reaped = 0;
+  while ((reaped = waitpid(id_, &status, 0)) < 0 && errno == EINTR) {
   }
   id_ = 0;
-  if (WIFSIGNALED(status)) return {.exit_code = 0, .signal = WTERMSIG(status)};
-  return {.exit_code = WEXITSTATUS(status), .signal = 0};
+  if (reaped < 0) return {.exit_code = std::nullopt, .signal = 0, .killed_by_us = killed_};
+  if (WIFSIGNALED(status))
+    return {.exit_code = 0, .signal = WTERMSIG(status), .killed_by_us = killed_};
+  return {.exit_code = WEXITSTATUS(status), .signal = 0, .killed_by_us = killed_};
 }
 
 std::string WorkerProcess::End::text() const {
+  if (killed_by_us) return "the worker process did not stop in time and was killed";
+  if (!exit_code) return "the worker process is gone, and how it ended was not seen";
   if (signal == SIGKILL) return "the worker process was killed (SIGKILL; out of memory?)";
   if (signal != 0)
     return fmt::format("the worker process crashed: signal {} ({})", signal, strsignal(signal));
-  return fmt::format("the worker process ended with exit code {}", exit_code);
+  return fmt::format("the worker process ended with exit code {}", *exit_code);
 }
 
 }  // namespace haff::campaign

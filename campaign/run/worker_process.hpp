@@ -8,19 +8,22 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "campaign/job/report.hpp"
+#include "campaign/run/worker.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {
 
 class WorkerProcess {
  public:
-  // Starts it. It dies (SIGKILL) with this process. Throws std::system_error.
-  explicit WorkerProcess(const std::filesystem::path& store);
-  ~WorkerProcess();  // kills and buries it if it still lives
+  // Starts it. It dies (SIGKILL) with this process, and takes no job of which nothing can be stored
+  // before `deadline`. Throws std::system_error.
+  WorkerProcess(const std::filesystem::path& store, std::optional<Deadline> deadline);
+  ~WorkerProcess();  // kills and reaps it if it still lives
   WorkerProcess(WorkerProcess&& other) noexcept;
   WorkerProcess& operator=(WorkerProcess&&) = delete;
 
@@ -32,21 +35,28 @@ class WorkerProcess {
 
   // Sends a signal, if it lives.
   void signal(int number) const;
+  // SIGKILL, which is then known to be ours.
+  void kill_now();
 
-  // True once it has ended; it stays in the process table until bury().
+  // True once it has ended; it stays in the process table until reap(), so that its number is not
+  // given to another process. A child that is not there to be waited for has ended, too.
   bool has_ended() const;
 
   struct End {
-    int exit_code = 0;
-    int signal = 0;  // that killed it, or 0
+    std::optional<int> exit_code = 0;  // nothing: it ended unseen
+    int signal = 0;                    // that killed it, or 0
+    bool killed_by_us = false;
+
+    bool is_exit(int code) const { return signal == 0 && exit_code == code; }
     std::string text() const;
   };
-  End bury();
+  End reap();
 
  private:
   pid_t id_ = 0;
   schema::Owner identity_;
   int reports_ = -1;
+  bool killed_ = false;
   std::string unfinished_line_;
 };
 

@@ -147,7 +147,7 @@ TEST_CASE("interruption: a large gas far from its next checkpoint is left at onc
   CHECK(std::chrono::steady_clock::now() - start < 4s);
 }
 
-TEST_CASE("interruption: a worker stopped by somebody else is replaced") {
+TEST_CASE("interruption: a worker that another program stops is replaced") {
   const Folder folder;
   plan(folder, long_grid);
   Program run(folder, {"run", "--workers", "1"});

@@ -14,7 +14,7 @@ const Totals totals{.jobs = 12, .done = 5, .failed = 1, .fraction = 0.432, .seco
 }  // namespace
 
 TEST_CASE("display: a bar for each worker and one for all") {
-  const auto lines = bars(workers, totals, 200);
+  const auto lines = bars(workers, totals, 200, 24);
   REQUIRE(lines.size() == 3);
   CHECK(lines[0] ==
         "[##########..........] tau   45.0/90     1.25 M collisions/s  "
@@ -24,7 +24,7 @@ TEST_CASE("display: a bar for each worker and one for all") {
 }
 
 TEST_CASE("display: no line is wider than the terminal") {
-  for (const std::string& line : bars(workers, totals, 30)) CHECK(line.size() <= 30);
+  for (const std::string& line : bars(workers, totals, 30, 24)) CHECK(line.size() <= 30);
 }
 
 TEST_CASE("display: one plain line says the same") {

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 
 #include "campaign/run/abandoned.hpp"
@@ -36,7 +37,7 @@ TEST_CASE("process: nothing is known of another host or container") {
   CHECK(life_of(process) == Life::unknown);
 }
 
-TEST_CASE("process: a child that has ended is dead, buried or not") {
+TEST_CASE("process: a child that has ended is dead, reaped or not") {
   const pid_t id = fork();
   if (id == 0) {
     pause();
@@ -52,19 +53,44 @@ TEST_CASE("process: a child that has ended is dead, buried or not") {
   CHECK(life_of(child) == Life::dead);
 }
 
-TEST_CASE("abandoned: a job of another host is when its lease is old") {
+TEST_CASE("abandoned: a job of another host is when its lease was not renewed for five minutes") {
+  schema::RunningJob job;
+  job.owner = this_process();
+  job.owner.host += "-other";
+  // Whatever the other host's clock says: long ago, or years ahead.
+  for (const char* renewed : {"2003-09-05T12:00:00.000Z", "2999-09-05T12:00:00.000Z"}) {
+    job.renewed = renewed;
+    LeaseWatch watch;
+    const LeaseWatch::Clock::time_point start;
+    CHECK_FALSE(watch.is_abandoned(job, start));
+    CHECK_FALSE(watch.is_abandoned(job, start + lease_time));
+    CHECK(watch.is_abandoned(job, start + lease_time + std::chrono::seconds(1)));
+  }
+}
+
+TEST_CASE("abandoned: a lease that is renewed, or passes to another worker, begins anew") {
   schema::RunningJob job;
   job.owner = this_process();
   job.owner.host += "-other";
   job.renewed = "2003-09-05T12:00:00.000Z";
-  CHECK(is_abandoned(job));
-  job.renewed = "2999-09-05T12:00:00.000Z";
-  CHECK_FALSE(is_abandoned(job));
+  LeaseWatch watch;
+  const LeaseWatch::Clock::time_point start;
+  const auto step = lease_time - std::chrono::seconds(1);
+  CHECK_FALSE(watch.is_abandoned(job, start));
+  job.renewed = "2003-09-05T12:00:05.000Z";
+  CHECK_FALSE(watch.is_abandoned(job, start + step));
+  job.lease.token = 1;
+  CHECK_FALSE(watch.is_abandoned(job, start + 2 * step));
+  CHECK_FALSE(watch.is_abandoned(job, start + 3 * step));
+  CHECK(watch.is_abandoned(job, start + 4 * step));
 }
 
-TEST_CASE("abandoned: a job of a living process is not, however old its lease") {
+TEST_CASE("abandoned: a job of a process that lives is not, however old its lease") {
   schema::RunningJob job;
   job.owner = this_process();
   job.renewed = "2003-09-05T12:00:00.000Z";
-  CHECK_FALSE(is_abandoned(job));
+  LeaseWatch watch;
+  const LeaseWatch::Clock::time_point start;
+  CHECK_FALSE(watch.is_abandoned(job, start));
+  CHECK_FALSE(watch.is_abandoned(job, start + 10 * lease_time));
 }

@@ -1,0 +1,104 @@
+// Signals, and what a parent can have done to them.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <doctest/doctest.h>
+
+#include <csignal>
+
+#include "cli/program.hpp"
+
+using namespace haff::tests;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr const char* long_grid =
+    R"({"e": 0.9, "n": 0.4, "N": 1000, "seeds": 2, "tau_max": 2000, "sample_every": 5})";
+
+void plan(const Folder& folder, const std::string& grid) {
+  folder.write("grid.json", grid);
+  REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
+}
+
+void wait_for_cooling(const Folder& folder) {
+  while (number(folder, "SELECT max(tau) FROM jobs WHERE kind = 'cooling'") == 0) sleep_for(5ms);
+}
+
+}  // namespace
+
+TEST_CASE("signals: each that asks to stop is an ordered stop") {
+  for (const int signal : {SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU}) {
+    CAPTURE(signal);
+    const Folder folder;
+    plan(folder, long_grid);
+    Program run(folder, {"run", "--workers", "2"});
+    wait_for_cooling(folder);
+    run.signal(signal);
+    CHECK(run.wait().exit_code == 128 + signal);
+    CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'running'") == 0);
+    CHECK(number(folder, "SELECT sum(attempts) FROM jobs") == 0);
+  }
+}
+
+TEST_CASE("signals: a run under nohup goes on when the terminal is gone") {
+  const Folder folder;
+  plan(folder, long_grid);
+  Program run(folder, {"/bin/sh", "-c", "trap '' HUP; exec \"$campaign\" run --workers 1"});
+  wait_for_cooling(folder);
+  run.signal(SIGHUP);
+  sleep_for(300ms);
+  CHECK(run.runs());
+}
+
+TEST_CASE("signals: a parent that ignored SIGCHLD, or blocked SIGTERM, changes nothing") {
+  const Folder folder;
+  plan(folder, R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 2, "tau_max": 5})");
+  CHECK(shell(folder, "trap '' CHLD; exec \"$campaign\" run").exit_code == 0);
+  CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'done'") == 4);
+
+  const Folder other;
+  plan(other, long_grid);
+  Program run(other, {"/bin/sh", "-c", "trap '' CHLD TERM; exec \"$campaign\" run"});
+  wait_for_cooling(other);
+  run.signal(SIGTERM);
+  CHECK(run.wait().exit_code == 128 + SIGTERM);
+}
+
+TEST_CASE("signals: a stop does not wait for a lock that another process holds") {
+  const Folder folder;
+  plan(folder, long_grid);
+  Program run(folder, {"run", "--workers", "2"});
+  wait_for_cooling(folder);
+  {
+    SQLite::Database other(folder.store().string(), SQLite::OPEN_READWRITE, 10'000);
+    other.exec("BEGIN IMMEDIATE");
+    sleep_for(500ms);
+    run.signal(SIGINT);
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome = run.wait();
+    CHECK(outcome.exit_code == 130);
+    CHECK(std::chrono::steady_clock::now() - start < 10s);
+    CHECK(outcome.err.find("out of memory") == std::string::npos);
+  }
+  // What could not be given back is taken back by the next run, at no cost.
+  CHECK(campaign(folder, {"run", "--max-time", "1s"}).exit_code == 3);
+  CHECK(number(folder, "SELECT sum(attempts) FROM jobs") == 0);
+}
+
+TEST_CASE("signals: a short --max-time stores something, or says what it needs") {
+  const Folder folder;
+  plan(folder, R"({"e": 0.9, "n": 0.4, "N": 40000, "seeds": 1, "tau_max": 100})");
+  const Outcome first = campaign(folder, {"run", "--workers", "1", "--max-time", "0.05s"});
+  CHECK(first.exit_code == 3);
+  CHECK(first.out.find("--max-time is too short") != std::string::npos);
+  CHECK(number(folder, "SELECT sum(cpu_seconds) FROM jobs") == 0);
+
+  // Nothing is expected of these jobs, so they are begun, and then stored.
+  sabotage(folder, "UPDATE jobs SET expected_cpu_seconds = NULL");
+  double before = 0;
+  for (int i = 0; i < 3; ++i) {
+    CHECK(campaign(folder, {"run", "--workers", "1", "--max-time", "0.3s"}).exit_code == 3);
+    const double now = number(folder, "SELECT sum(tau) FROM checkpoints");
+    CHECK(now > before);
+    before = now;
+  }
+}
