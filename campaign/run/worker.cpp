@@ -102,7 +102,7 @@ void work_on(schema::Store& store, const schema::Claim& claim, const Reporter& r
 
 std::optional<schema::Fit> what_fits(std::optional<Deadline> deadline) {
   if (!deadline) return std::nullopt;
-  const auto left = *deadline - std::chrono::steady_clock::now();
+  const std::chrono::duration<double> left = *deadline - std::chrono::steady_clock::now();
   return schema::Fit{.seconds = std::max(0.0, left.count()) / margin,
                      .tau = engine::synchronization_period};
 }
