@@ -1,5 +1,7 @@
 #include "analysis/cooling.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -7,6 +9,15 @@
 #include <stdexcept>
 
 namespace haff::analysis {
+namespace {
+
+// Gauss-Legendre quadrature on [-1, 1] with three nodes, exact for polynomials up to the fifth
+// degree: places sqrt(3/5), weights 5/9 and 8/9.
+const double sqrt_three_fifths = std::sqrt(0.6);
+const std::array<double, 3> gauss_place{-sqrt_three_fifths, 0, sqrt_three_fifths};
+constexpr std::array<double, 3> gauss_weight{5.0 / 9, 8.0 / 9, 5.0 / 9};
+
+}  // namespace
 
 double gamma0(double e, int d) {
   return (1 - e * e) / (2 * d);
@@ -28,6 +39,44 @@ double gamma_ratio(double before, double after, double interval, double e, int d
 
 double collision_rate(double pair_collisions, double particles, double elapsed) {
   return 2 * pair_collisions / (particles * elapsed);
+}
+
+double mean_temperature(std::span<const double> time, std::span<const double> temperature) {
+  constexpr std::size_t most_nodes = 4;
+  if (time.size() != temperature.size() || time.size() < 2)
+    throw std::invalid_argument("mean_temperature: two samples are needed, and a time for each");
+  const std::size_t nodes = std::min(time.size(), most_nodes);
+  time = time.last(nodes);
+  std::array<double, most_nodes> difference{};  // Newton's divided differences of T^(-1/2)
+  for (std::size_t i = 0; i < nodes; ++i)
+    difference[i] = 1 / std::sqrt(temperature[temperature.size() - nodes + i]);
+  const double before = difference[nodes - 2], after = difference[nodes - 1];
+  for (std::size_t order = 1; order < nodes; ++order)
+    for (std::size_t i = nodes - 1; i >= order; --i)
+      difference[i] = (difference[i] - difference[i - 1]) / (time[i] - time[i - order]);
+  const auto interpolated = [&](double t) {
+    double value = difference[nodes - 1];
+    for (std::size_t i = nodes - 1; i > 0; --i)
+      value = difference[i - 1] + (t - time[i - 1]) * value;
+    return value;
+  };
+
+  // With the straight line l(t) between the last two nodes and w = 1/l, dt/l^2 is proportional to
+  // dw: what is left to integrate is (l/y)^2, which is 1 where Haff's law holds.
+  const double begin = time[nodes - 2], end = time[nodes - 1];
+  const double slope = (after - before) / (end - begin);
+  double mean = 0;
+  for (std::size_t k = 0; k < gauss_place.size(); ++k) {
+    const double part = 0.5 * (1 + gauss_place[k]);
+    const double w = 1 / before + part * (1 / after - 1 / before);
+    // t from w; between equal temperatures w is constant, and t as good as any measure.
+    const double t =
+        after == before ? begin + part * (end - begin) : begin + (1 / w - before) / slope;
+    const double ratio = 1 / (w * interpolated(t));
+    mean += 0.5 * gauss_weight[k] * ratio * ratio;
+  }
+  const double geometric = 1 / (before * after);
+  return std::isfinite(mean) ? mean * geometric : geometric;
 }
 
 double pressure(double n, double temperature, double virial, double particles, double elapsed,

@@ -30,8 +30,17 @@ double gamma_ratio(double before, double after, double interval, double e, int d
 // Collision frequency of one particle: 2 pair collisions / (N elapsed) [1/time].
 double collision_rate(double pair_collisions, double particles, double elapsed);
 
+// Mean of T over time between the last two of these samples, at least two at increasing times.
+//
+// By Haff's law T^(-1/2) is a straight line in time, and the mean of T between two samples is the
+// geometric one, sqrt(T_before T_after), exactly. Where the gas departs from it, T^(-1/2) is taken
+// from the cubic through the last four samples (a parabola through three), which leaves an error of
+// the fourth order in the interval (third; second with two samples). Only + - x / and sqrt are
+// used, so that the result has the same bits everywhere.
+double mean_temperature(std::span<const double> time, std::span<const double> temperature);
+
 // Pressure n T + virial / (d V elapsed) [energy/volume], V = N/n. `virial` is the sum over the
-// collisions of `elapsed` of sigma |momentum transfer|; `temperature` its average over them.
+// collisions of `elapsed` of sigma |momentum transfer|, `temperature` the mean over that time.
 double pressure(double n, double temperature, double virial, double particles, double elapsed,
                 int d = 3);
 

@@ -76,9 +76,7 @@ bool Attempt::advance_to(std::int64_t collisions) {
 }
 
 void Attempt::sample(double tau) {
-  const auto previous =
-      samples_.empty() ? std::nullopt : std::optional<schema::Sample>(samples_.back());
-  schema::Sample sample = measure(*gas_, job(), tau, previous);
+  schema::Sample sample = measure(*gas_, job(), tau, samples_);
   const Views taken = view(*gas_, job(), sample);
   samples_.push_back(sample);
   views_.profiles.insert(views_.profiles.end(), taken.profiles.begin(), taken.profiles.end());

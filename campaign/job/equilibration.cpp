@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/equilibrium.hpp"
 #include "campaign/job/measurement.hpp"
 #include "campaign/job/timetable.hpp"
 #include "campaign/state/model.hpp"
@@ -14,13 +15,13 @@ static_assert(schema::equilibration_sample_every == engine::synchronization_peri
               "an equilibration is looked at where it can be stored");
 
 NotEquilibrated not_equilibrated(const schema::Sample& sample, const schema::Job& job) {
+  const auto mean = [&](int l) { return analysis::equilibrium_laguerre(l, job.particles, job.d); };
   return NotEquilibrated(fmt::format(
       "not in equilibrium after {} collisions per particle: a2 = {:.3g}, a3 = {:.3g}, a4 = {:.3g}, "
       "more than 4 standard errors from {:.3g}, {:.3g}, {:.3g}; plan it with a larger "
       "\"equilibrate\" than {}",
-      sample.tau, sample.a2.value_or(0), sample.a3.value_or(0), sample.a4.value_or(0),
-      equilibrium_laguerre(2, job), equilibrium_laguerre(3, job), equilibrium_laguerre(4, job),
-      job.equilibrate));
+      sample.tau, sample.a2.value_or(0), sample.a3.value_or(0), sample.a4.value_or(0), mean(2),
+      mean(3), mean(4), job.equilibrate));
 }
 
 }  // namespace

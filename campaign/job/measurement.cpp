@@ -1,7 +1,6 @@
 #include "campaign/job/measurement.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -9,7 +8,9 @@
 #include "analysis/cooling.hpp"
 #include "analysis/correlations.hpp"
 #include "analysis/distribution.hpp"
+#include "analysis/equilibrium.hpp"
 #include "analysis/moments.hpp"
+#include "analysis/species.hpp"
 #include "analysis/structure.hpp"
 #include "analysis/velocity_correlations.hpp"
 #include "campaign/job/timetable.hpp"
@@ -17,10 +18,6 @@
 
 namespace haff::campaign {
 namespace {
-
-// A Gaussian gas is taken for none once in some 10^4 checks (a_4 has heavy tails at small N); it
-// is then run on, which costs time and nothing else.
-constexpr double standard_errors = 4;
 
 bool asks_for(const schema::Job& job, std::string_view observable) {
   return std::find(job.observables.begin(), job.observables.end(), observable) !=
@@ -31,23 +28,37 @@ std::optional<double> if_finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+// Mean over the time since the last of the earlier rows, which has a temperature.
+double mean_temperature(std::span<const schema::Sample> earlier, const schema::Sample& now) {
+  constexpr std::size_t useful = 3;  // beside this row: analysis::mean_temperature uses four
+  std::vector<double> time, temperature;
+  for (const schema::Sample& row : earlier.last(std::min(useful, earlier.size()))) {
+    if (!row.temperature) continue;
+    time.push_back(row.time);
+    temperature.push_back(*row.temperature);
+  }
+  time.push_back(now.time);
+  temperature.push_back(*now.temperature);
+  return analysis::mean_temperature(time, temperature);
+}
+
 void measure_temperature(schema::Sample& sample, double temperature, double virial,
                          double collisions, const schema::Job& job,
-                         const std::optional<schema::Sample>& previous) {
+                         std::span<const schema::Sample> earlier) {
   sample.temperature = temperature;
-  if (!previous || !previous->temperature) return;
-  const double elapsed = sample.time - previous->time;
-  const double before = *previous->temperature;
+  if (earlier.empty() || !earlier.back().temperature) return;
+  const schema::Sample& previous = earlier.back();
+  const double elapsed = sample.time - previous.time;
   if (cools_by_haff(job))
-    sample.gamma_ratio = if_finite(
-        analysis::gamma_ratio(before, temperature, sample.tau - previous->tau, *job.e, job.d));
+    sample.gamma_ratio = if_finite(analysis::gamma_ratio(*previous.temperature, temperature,
+                                                         sample.tau - previous.tau, *job.e, job.d));
   sample.collision_rate = if_finite(analysis::collision_rate(collisions, job.particles, elapsed));
-  sample.pressure = if_finite(analysis::pressure(job.n, 0.5 * (before + temperature), virial,
+  sample.pressure = if_finite(analysis::pressure(job.n, mean_temperature(earlier, sample), virial,
                                                  job.particles, elapsed, job.d));
 }
 
-// Of a mixture every v stands for sqrt(m) v: then temperature and moments are of all particles
-// alike, and Gaussian in equilibrium.
+// Velocities v of a simple gas, sqrt(m) v of a mixture, whose temperature and moments are then
+// those of all particles alike, and Gaussian in equilibrium.
 std::vector<engine::Vector> weighted_velocities(const engine::Simulation& gas,
                                                 const std::optional<engine::Mixture>& mixture) {
   auto velocities = gas.velocities();
@@ -60,17 +71,12 @@ std::vector<engine::Vector> weighted_velocities(const engine::Simulation& gas,
 
 void measure_species(schema::Sample& sample, const engine::Simulation& gas,
                      const engine::Mixture& mixture, const schema::Job& job) {
-  const auto velocities = gas.velocities();
-  const auto ids = gas.ids();
-  std::array<double, 2> sum{};
-  std::array<double, 2> count{};
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const std::size_t species = mixture.is_second(ids[i]) ? 1 : 0;
-    for (const double v : velocities[i]) sum[species] += mixture.mass_of(ids[i]) * v * v;
-    ++count[species];
-  }
-  sample.temperature_1 = std::ldexp(sum[0] / (job.d * count[0]), -2 * gas.exponent());
-  sample.temperature_2 = std::ldexp(sum[1] / (job.d * count[1]), -2 * gas.exponent());
+  std::vector<bool> is_second;
+  for (const std::uint32_t id : gas.ids()) is_second.push_back(mixture.is_second(id));
+  const auto temperature =
+      analysis::species_temperatures(gas.velocities(), is_second, {1, mixture.mass}, job.d);
+  sample.temperature_1 = std::ldexp(temperature[0], -2 * gas.exponent());
+  sample.temperature_2 = std::ldexp(temperature[1], -2 * gas.exponent());
 }
 
 void measure_laguerre(schema::Sample& sample, const analysis::LaguerreCoefficients& a) {
@@ -136,7 +142,7 @@ void view_fields(const Snapshot& gas, const schema::Job& job, double tau, Views&
 }  // namespace
 
 schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double tau,
-                       const std::optional<schema::Sample>& previous) {
+                       std::span<const schema::Sample> earlier) {
   schema::Sample sample;
   sample.tau = tau;
   sample.time = gas.time();
@@ -149,9 +155,11 @@ schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double t
   if (asks_for(job, "temperature")) {
     const double temperature = std::ldexp(moments.temperature, -2 * gas.exponent());
     const std::int64_t collisions =
-        previous ? gas.collisions() - engine::collisions_at(previous->tau, job.particles) : 0;
+        earlier.empty()
+            ? 0
+            : gas.collisions() - engine::collisions_at(earlier.back().tau, job.particles);
     measure_temperature(sample, temperature, tally.virial, static_cast<double>(collisions), job,
-                        previous);
+                        earlier);
     if (const auto energy = gas.rotational_energy())
       sample.rotational_temperature =
           std::ldexp(*energy * 2 / axes_of_rotation(job.d), -2 * gas.exponent());
@@ -192,27 +200,8 @@ schema::Results results(const std::vector<schema::Sample>& samples, const schema
   return {tau_c, left.time + part * (after->time - left.time)};
 }
 
-double equilibrium_laguerre(int l, const schema::Job& job) {
-  const double dimensions = job.d * (job.particles - 1.0);
-  double moment = 1;  // <c^2k> over its Gaussian value
-  double binomial = 1;
-  double sum = 0;
-  for (int k = 0; k <= l; ++k) {
-    sum += (k % 2 == 0 ? 1 : -1) * binomial * moment;
-    binomial *= static_cast<double>(l - k) / (k + 1);
-    moment /= 1 + 2.0 * k / dimensions;
-  }
-  return sum;
-}
-
 bool is_equilibrated(const schema::Sample& sample, const schema::Job& job) {
-  const std::array coefficients{sample.a2, sample.a3, sample.a4};
-  for (int l = 2; l <= 4; ++l) {
-    const auto& a = coefficients[static_cast<std::size_t>(l - 2)];
-    const double allowed = standard_errors * analysis::laguerre_noise(l, job.particles, job.d);
-    if (!a || !(std::abs(*a - equilibrium_laguerre(l, job)) <= allowed)) return false;
-  }
-  return true;
+  return analysis::is_equilibrated({sample.a2, sample.a3, sample.a4}, job.particles, job.d);
 }
 
 }  // namespace haff::campaign

@@ -1,7 +1,7 @@
 // One row of samples: what a gas shows now, and what it did since the row before.
 #pragma once
 
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/simulation.hpp"
@@ -9,12 +9,17 @@
 
 namespace haff::campaign {
 
-// Takes the sample of a job at tau, and the engine's tally with it. `previous` is the row before,
-// nothing at the start. Rates are averages over the interval between the two rows; pressure is
-// n (T_before + T_now) / 2 + virial / (d V dt), the kinetic part by the trapezoidal rule. What
-// does not exist (a rate at the start, a coefficient of a gas at rest) stays empty.
+// Takes the sample of a job at tau, and the engine's tally with it. `earlier` are the rows before,
+// all or at least the last three; none at the start. What each column is an average of:
+//   temperature, a_l, rotational and species temperatures, and what goes with profiles   the
+//                    moment of the sample
+//   gamma_ratio      the interval since the row before, over tau: exact, from ln T at its ends
+//   collision_rate   the same interval, over time: exact, a number of collisions over the time
+//   pressure         the same interval, over time: n <T> + virial / (d V dt), the collisional part
+//                    exact, the kinetic part by analysis::mean_temperature
+// What does not exist (a rate at the start, a coefficient of a gas at rest) stays empty.
 schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double tau,
-                       const std::optional<schema::Sample>& previous);
+                       std::span<const schema::Sample> earlier);
 
 // What the whole gas shows now, beside a sample.
 struct Views {
@@ -29,13 +34,7 @@ Views view(const engine::Simulation& gas, const schema::Job& job, schema::Sample
 // The end of the homogeneous stage, from all samples of a job.
 schema::Results results(const std::vector<schema::Sample>& samples, const schema::Job& job);
 
-// Whether a_2, a_3 and a_4 are those of elastic equilibrium: within 4 standard errors of their
-// mean for so few particles at given energy and momentum.
+// Whether a_2, a_3 and a_4 are those of elastic equilibrium, by analysis::is_equilibrated.
 bool is_equilibrated(const schema::Sample& sample, const schema::Job& job);
-
-// Mean a_l of N particles at equilibrium with fixed energy and zero total momentum. The velocities
-// are then uniform on a sphere in D = d(N-1) dimensions, where the moments fall short of their
-// Gaussian values, <c^2k> = Gaussian / prod_{j<k} (1 + 2j/D): for a_2 by 2/(D+2).
-double equilibrium_laguerre(int l, const schema::Job& job);
 
 }  // namespace haff::campaign

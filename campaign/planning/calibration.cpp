@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 #include <utility>
 
 #include "campaign/base/cpu_time.hpp"
@@ -80,11 +81,11 @@ Prices try_out(const schema::Job& job, double tau_max, double seconds) {
                  (job.kind == schema::Kind::equilibration ? making : reading * encoding);
 
   const double step = std::min(job.sample_every, stretch);
-  std::optional<schema::Sample> sample;
+  std::vector<schema::Sample> rows;
   double tau = 0, running = 0, sampling = 0;
   int samples = 0;
   do {
-    sample = measure(gas, tried, tau, sample);
+    rows.push_back(measure(gas, tried, tau, rows));
     ++samples;
     sampling += watch.lap();
     tau = step * samples;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -64,4 +65,49 @@ TEST_CASE("cooling: collision rate and pressure by their definitions") {
   // Ideal gas without virial; and 3 of virial a unit time in V = 10.
   CHECK(pressure(0.4, 0.5, 0, 100, 1) == Approx(0.2));
   CHECK(pressure(10, 0.5, 3, 100, 1) == Approx(5.1));
+}
+
+TEST_CASE("cooling: between two samples of Haff's law the mean temperature is the geometric one") {
+  // T = 1/(1 + t)^2: the mean over [a, b] is 1/((1 + a)(1 + b)), however long the interval.
+  const std::vector<double> time{0, 1, 5, 40};
+  std::vector<double> temperature;
+  for (const double t : time) temperature.push_back(std::pow(1 + t, -2));
+  for (std::size_t nodes = 2; nodes <= time.size(); ++nodes) {
+    const double mean =
+        mean_temperature(std::span(time).first(nodes), std::span(temperature).first(nodes));
+    CHECK(mean ==
+          doctest::Approx(1 / ((1 + time[nodes - 2]) * (1 + time[nodes - 1]))).epsilon(1e-13));
+  }
+}
+
+TEST_CASE(
+    "cooling: the error of the mean temperature falls with the fourth power of the interval") {
+  // T = exp(-t + t^2/20), which follows no law of Haff; its mean over [1 - h, 1] by Simpson's rule
+  // with 2000 intervals, exact to 1e-13.
+  const auto temperature = [](double t) { return std::exp(-t + t * t / 20); };
+  const auto error = [&](double h) {
+    std::vector<double> time, values;
+    for (int k = 3; k >= 0; --k) {
+      time.push_back(1 - k * h);
+      values.push_back(temperature(time.back()));
+    }
+    constexpr int intervals = 2000;
+    double exact = 0;
+    for (int k = 0; k <= intervals; ++k) {
+      const int weight = k == 0 || k == intervals ? 1 : k % 2 == 1 ? 4 : 2;
+      exact += weight * temperature(1 - h + k * h / intervals) / (3.0 * intervals);
+    }
+    return std::abs(mean_temperature(time, values) / exact - 1);
+  };
+  CHECK(error(0.4) < 1e-3);
+  // 2^4 = 16; the next order makes it a little more or less.
+  CHECK(error(0.4) / error(0.2) > 12);
+  CHECK(error(0.2) / error(0.1) > 13);
+}
+
+TEST_CASE("cooling: mean temperature of a gas that stays as hot, or was measured once") {
+  CHECK(mean_temperature(std::vector<double>{0, 1, 2}, std::vector<double>{0.7, 0.7, 0.7}) ==
+        doctest::Approx(0.7).epsilon(1e-15));
+  CHECK_THROWS_AS(mean_temperature(std::vector<double>{0}, std::vector<double>{1}),
+                  std::invalid_argument);
 }
