@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
-#include <vector>
 #include <utility>
+#include <vector>
 
 #include "campaign/base/cpu_time.hpp"
 #include "campaign/job/measurement.hpp"
