@@ -42,6 +42,11 @@ void print_lines(std::string_view text) {
   write_out(printable_lines(text));
 }
 
+void complain_lines(std::string_view text) {
+  std::fflush(stdout);
+  write_to_stderr(printable_lines(text));
+}
+
 void print_data(std::string_view text) {
   isatty(STDOUT_FILENO) == 1 ? print_lines(text) : write_out(text);
 }

@@ -24,6 +24,14 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
   print_lines(fmt::format(format, std::forward<Values>(values)...));
 }
 
+// The same to stderr, behind everything that was printed before.
+void complain_lines(std::string_view text);
+
+template <class... Values>
+void complain(fmt::format_string<Values...> format, Values&&... values) {
+  complain_lines(fmt::format(format, std::forward<Values>(values)...));
+}
+
 // Prints data for programs: as it is into a file or a pipe, made printable on a terminal.
 void print_data(std::string_view text);
 

@@ -60,8 +60,8 @@ struct CommandDispatcher {
   }
 };
 
-int complain(const std::exception& error, int exit_code) {
-  write_to_stderr(fmt::format("campaign: {}\n", printable_lines(error.what())));
+int failure(const std::exception& error, int exit_code) {
+  complain("campaign: {}\n", error.what());
   return exit_code;
 }
 
@@ -72,18 +72,18 @@ int perform(int argc, char** argv) try {
   set_up_log(line.verbose);
   return std::visit(CommandDispatcher{line}, line.command);
 } catch (const schema::GridError& error) {
-  return complain(error, exit_bad_input);
+  return failure(error, exit_bad_input);
 } catch (const schema::DiskError& error) {
-  return complain(error, exit_failed);
+  return failure(error, exit_failed);
 } catch (const schema::Damage& error) {
-  return complain(error, exit_failed);
+  return failure(error, exit_failed);
 } catch (const schema::StoreError& error) {
   // No store, not a store, not SQL: another was named or typed than was meant.
-  return complain(error, exit_bad_input);
+  return failure(error, exit_bad_input);
 } catch (const UnknownFigure& error) {
-  return complain(error, exit_bad_input);
+  return failure(error, exit_bad_input);
 } catch (const std::exception& error) {
-  return complain(error, exit_failed);
+  return failure(error, exit_failed);
 }
 
 }  // namespace

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "campaign/base/command_text.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/number_text.hpp"
+#include "campaign/base/output.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/cluster/merge.hpp"
 
@@ -23,17 +22,16 @@ int merge(const MergeOptions& options) {
                  count_text(outcome.rows)});
     } catch (const schema::StoreError& error) {
       is_complete = false;
-      fmt::print(stderr, "campaign: {}\n", error.what());
+      complain("campaign: {}\n", error.what());
     }
   }
-  if (!table.empty()) fmt::print("{}", table.text());
+  if (!table.empty()) say("{}", table.text());
 
   std::int64_t out = 0;
   for (const schema::Shard& shard : store.shards())
     if (!shard.returned) out += shard.unfinished;
   if (out > 0)
-    fmt::print(
-        "{} job{} still lent. Merge again when {} ended, or take back what a lost shard had: {}\n",
+    say("{} job{} still lent. Merge again when {} ended, or take back what a lost shard had: {}\n",
         count_text(out), out == 1 ? " is" : "s are", out == 1 ? "it has" : "they have",
         command_text("recall SHARD", options.store));
   return is_complete ? exit_complete : exit_failed;

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "campaign/base/command_text.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/number_text.hpp"
+#include "campaign/base/output.hpp"
 #include "campaign/cluster/merge.hpp"
 
 namespace haff::campaign {
@@ -30,16 +30,16 @@ const schema::Shard& shard_named(const std::vector<schema::Shard>& shards, const
 // What the shard has stored so far need not be computed again.
 void bring_what_is_there(schema::Store& store, const schema::Shard& shard, const fs::path& path) {
   if (!fs::exists(path)) {
-    fmt::print("{}: {} is not there; what it has not sent home is computed again.\n", shard.name,
-               path.string());
+    say("{}: {} is not there; what it has not sent home is computed again.\n", shard.name,
+        path.string());
     return;
   }
   try {
     const MergeOutcome outcome = merge(store, path);
-    fmt::print("{}: {} new rows of {} jobs merged first.\n", shard.name, count_text(outcome.rows),
-               count_text(outcome.jobs));
+    say("{}: {} new rows of {} jobs merged first.\n", shard.name, count_text(outcome.rows),
+        count_text(outcome.jobs));
   } catch (const schema::StoreError& error) {
-    fmt::print(stderr, "campaign: {}; what it has not sent home is computed again\n", error.what());
+    complain("campaign: {}; what it has not sent home is computed again\n", error.what());
   }
 }
 
@@ -54,11 +54,10 @@ int recall(const RecallOptions& options) {
     const bool names_file = fs::path(word).has_parent_path() && fs::exists(word);
     bring_what_is_there(store, shard, names_file ? fs::path(word) : shard.path);
     const std::int64_t back = store.recall(shard.name);
-    fmt::print("{}: {} job{} pending again.\n", shard.name, count_text(back),
-               back == 1 ? " is" : "s are");
+    say("{}: {} job{} pending again.\n", shard.name, count_text(back), back == 1 ? " is" : "s are");
     jobs += back;
   }
-  if (jobs > 0) fmt::print("Next: {}\n", command_text("run", options.store));
+  if (jobs > 0) say("Next: {}\n", command_text("run", options.store));
   return exit_complete;
 }
 

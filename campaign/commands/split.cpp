@@ -8,8 +8,10 @@
 #include "campaign/base/duration.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/number_text.hpp"
+#include "campaign/base/output.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/cluster/split.hpp"
+#include "campaign/run/abandoned.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -27,26 +29,27 @@ void print(const std::vector<WrittenShard>& shards, int workers) {
     cpu_seconds += shard.share.cpu_seconds;
     jobs += shard.share.jobs.size();
   }
-  fmt::print("{}\n{} shard{} with {} jobs, {} of CPU time, in {}.\n", table.text(), shards.size(),
-             shards.size() == 1 ? "" : "s", jobs, duration_text(cpu_seconds),
-             shards.front().path.parent_path().string());
-  fmt::print("Expected with {} worker{} a shard, all shards at once: {}.\n", workers,
-             workers == 1 ? "" : "s", duration_text(makespan));
+  say("{}\n{} shard{} with {} jobs, {} of CPU time, in {}.\n", table.text(), shards.size(),
+      shards.size() == 1 ? "" : "s", jobs, duration_text(cpu_seconds),
+      shards.front().path.parent_path().string());
+  say("Expected with {} worker{} a shard, all shards at once: {}.\n", workers,
+      workers == 1 ? "" : "s", duration_text(makespan));
 }
 
 }  // namespace
 
 int split(const SplitOptions& options) {
   schema::Store store = schema::Store::open(options.store);
+  take_back_from_the_dead(store);
   const auto shards = split(store, options.into, options.out);
   if (shards.empty()) {
-    fmt::print("No job is pending: there is nothing to lend.\n");
+    say("No job is pending: there is nothing to lend.\n");
     return exit_complete;
   }
   print(shards, options.workers);
-  const std::string all = (options.out / "shard-*.db").string();
-  fmt::print("Next: {} on another machine; then here: {}\n",
-             command_text("run", shards.front().path), command_text("merge " + all, options.store));
+  const std::string all = shell_word((options.out / "").string()) + "shard-*.db";
+  say("Next: {} on another machine; then here: {}\n", command_text("run", shards.front().path),
+      command_text("merge " + all, options.store));
   return exit_complete;
 }
 

@@ -8,6 +8,13 @@ bool is_owner_dead(const schema::RunningJob& job) {
   return life_of(job.owner) == Life::dead;
 }
 
+std::int64_t take_back_from_the_dead(schema::Store& store) {
+  std::int64_t count = 0;
+  for (const schema::RunningJob& job : store.running())
+    if (is_owner_dead(job) && store.reclaim(job.lease)) ++count;
+  return count;
+}
+
 bool LeaseWatch::is_abandoned(const schema::RunningJob& job, Clock::time_point now) {
   switch (life_of(job.owner)) {
     case Life::alive:

@@ -18,6 +18,9 @@ inline constexpr std::chrono::seconds lease_time{300};
 // Whether the owner of a job was on this host and is dead.
 bool is_owner_dead(const schema::RunningJob& job);
 
+// Takes back the jobs whose owners were on this host and are dead. Returns how many.
+std::int64_t take_back_from_the_dead(schema::Store& store);
+
 // Judges leases by watching them. The times that the store holds come from the clocks of several
 // hosts, which may differ and jump, so only the watcher's own monotonic clock counts: a lease has
 // ended when it was seen unchanged for lease_time.

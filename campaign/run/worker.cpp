@@ -33,14 +33,9 @@ constexpr std::chrono::milliseconds idle{100};
 // Expected CPU times are of this machine when it is not busy, and of a gas before it clusters.
 constexpr double margin = 1.5;
 
-// Returns when there is a job to take, when the store has changed so that there may be none to wait
-// for, or when asked to stop.
-void wait_for_job(const schema::Store& store, std::optional<Deadline> deadline) {
-  for (const auto seen = store.change_counter(); stop_signal() == 0;) {
-    if (store.has_claimable(what_fits(deadline))) return;
-    std::this_thread::sleep_for(idle);
-    if (store.change_counter() != seen) return;
-  }
+// Returns when the store is no longer as it was `seen`, or when asked to stop.
+void wait_for_change(const schema::Store& store, std::int64_t seen) {
+  while (stop_signal() == 0 && store.change_counter() == seen) std::this_thread::sleep_for(idle);
 }
 
 std::string name_of(const schema::Claim& claim) {
@@ -121,17 +116,20 @@ int work(const std::filesystem::path& path, int report_descriptor,
     store.wait_for_locks_while(may_wait_for_locks);
     const schema::Owner me = this_process();
     while (stop_signal() == 0) {
+      const std::int64_t seen = store.change_counter();  // before the look that it is to guard
       const auto fit = what_fits(deadline);
-      if (const auto claim = store.claim(me, code_version(), fit)) {
-        work_on(store, *claim, reporter);
+      if (store.has_claimable(fit)) {
+        if (const auto claim = store.claim(me, code_version(), fit))
+          work_on(store, *claim, reporter);
         continue;
       }
       reporter.send(IdleReport{});
       const schema::Summary summary = store.summary();
       if (!may_have_work(summary)) return worker_has_finished;
-      if (deadline && summary.waiting == 0 && !store.has_claimable(fit) && summary.claimable > 0)
+      if (deadline && summary.waiting == 0 && summary.claimable > 0 &&
+          !store.has_claimable(what_fits(deadline)))
         return worker_has_no_time;
-      wait_for_job(store, deadline);
+      wait_for_change(store, seen);
     }
     return worker_was_stopped;
   } catch (const schema::Locked& error) {

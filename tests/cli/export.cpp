@@ -69,7 +69,7 @@ TEST_CASE("export: what there is not is bad input") {
   const Outcome early = campaign(folder, {"export", "2"});
   CHECK(early.exit_code == 2);
   CHECK(early.err.find("no state of job 2") != std::string::npos);
-  CHECK(early.err.find("campaign run --store") != std::string::npos);
+  CHECK(early.err.find("with: campaign run") != std::string::npos);
 }
 
 TEST_CASE("export: a damaged state is not written") {
