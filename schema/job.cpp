@@ -62,7 +62,6 @@ std::string identity(const Job& job) {
          R"(","n":)" + real(job.n) +                                 //
          R"(,"observables":)" + observables_text(job.observables) +  //
          R"(,"particles":)" + std::to_string(job.particles) +        //
-         R"(,"precision":")" + job.precision + R"(")" +              //
          (job.profiles_every ? R"(,"profiles_every":)" + real(*job.profiles_every) : "") +
          R"(,"sample_every":)" + real(job.sample_every) +  //
          R"(,"seed":)" + std::to_string(job.seed) + "}";

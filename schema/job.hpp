@@ -54,7 +54,6 @@ struct Job {
   std::uint64_t seed = 0;       // realization, 0 ... 2^53 - 1
   double equilibrate = 50;      // elastic collisions per particle before cooling
   double sample_every = 1;      // samples are taken at tau = k sample_every
-  std::string precision = "double";
   std::string effects = "{}";                 // JSON object, keys sorted, no spaces
   std::vector<std::string> observables = {};  // listed in grid.schema.json; in any order
   std::optional<double> profiles_every = {};  // profiles at tau = k profiles_every; empty: none
@@ -68,8 +67,8 @@ struct Job {
 inline constexpr double equilibration_sample_every = 10;
 
 // The equilibration a cooling job starts from: the same gas at e = 1, which depends on
-// (d, n, particles, seed, equilibrate, precision) and the effects that matter at e = 1. It runs
-// to tau_max = equilibrate and measures temperature and laguerre.
+// (d, n, particles, seed, equilibrate) and the effects that matter at e = 1. It runs to
+// tau_max = equilibrate and measures temperature and laguerre.
 Job equilibration_of(const Job& cooling);
 
 // The text that names a job: its physics as JSON, keys sorted, no spaces, reals in the shortest

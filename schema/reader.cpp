@@ -70,7 +70,7 @@ std::vector<JobRow> Reader::jobs() const {
   return database_->guarded([&] {
     SQLite::Statement statement(database_->sqlite(), R"(
       SELECT * FROM jobs
-      ORDER BY kind DESC, d, n, particles, e, equilibrate, sample_every, precision, effects,
+      ORDER BY kind DESC, d, n, particles, e, equilibrate, sample_every, effects,
                observables, profiles_every, fields_at, seed)");
     std::vector<JobRow> rows;
     while (statement.executeStep()) rows.push_back(job_row(statement));

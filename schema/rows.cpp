@@ -13,7 +13,6 @@ Job job_of(const SQLite::Statement& row) {
           .seed = static_cast<std::uint64_t>(integer(row, "seed")),
           .equilibrate = real(row, "equilibrate"),
           .sample_every = real(row, "sample_every"),
-          .precision = text(row, "precision"),
           .effects = text(row, "effects"),
           .observables = observables_in(text(row, "observables")),
           .profiles_every = optional_real(row, "profiles_every"),

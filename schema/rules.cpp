@@ -119,6 +119,12 @@ Pointer pointer_to(const std::vector<std::string>& context) {
   return pointer;
 }
 
+// Keys that earlier versions knew.
+std::optional<std::string> retired(const std::string& key) {
+  if (key == "precision") return "is no longer a key: every run is in double; leave it out";
+  return std::nullopt;
+}
+
 std::optional<std::string> unknown_key(const Json& value, const Json& rule) {
   if (!value.is_object() || !rule.contains("properties")) return std::nullopt;
   for (const auto& [key, member] : value.items())
@@ -184,8 +190,9 @@ GridError explanation(const Json& document, const std::string& file, const Point
   if (!rule) throw std::logic_error("grid.schema.json has no rule for " + where.to_string());
 
   if (const auto key = unknown_key(value, *rule))
-    return fault(file, where / *key,
-                 "unknown key; " + suggestion(*key, keys((*rule)["properties"])));
+    return fault(
+        file, where / *key,
+        retired(*key).value_or("unknown key; " + suggestion(*key, keys((*rule)["properties"]))));
 
   // A law of restitution among the effects may take the place of e (Examiner in grid.cpp).
   if (value.is_object() && where.empty() && !value.contains("e") && !value.contains("effects"))

@@ -41,11 +41,11 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
   SQLite::Statement statement(
       sqlite,
       "INSERT INTO jobs (identity, kind, d, e, n, particles, seed, equilibrate, "
-      "sample_every, precision, effects, observables, profiles_every, fields_at, tau_max, "
+      "sample_every, effects, observables, profiles_every, fields_at, tau_max, "
       "checkpoint_every, "
       "equilibration_id, expected_cpu_seconds, created) "
       "VALUES (:identity, :kind, :d, :e, :n, :particles, :seed, :equilibrate, "
-      ":sample_every, :precision, :effects, :observables, :profiles_every, :fields_at, :tau_max, "
+      ":sample_every, :effects, :observables, :profiles_every, :fields_at, :tau_max, "
       ":checkpoint_every, "
       ":equilibration_id, :expected_cpu_seconds, " +
           now + ")");
@@ -59,7 +59,6 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
   statement.bind(":seed", static_cast<std::int64_t>(job.seed));
   statement.bind(":equilibrate", job.equilibrate);
   statement.bind(":sample_every", job.sample_every);
-  statement.bind(":precision", job.precision);
   statement.bind(":effects", job.effects);
   statement.bind(":observables", observables_text(job.observables));
   bind(statement, ":profiles_every", job.profiles_every);

@@ -13,7 +13,6 @@
 
 #include "campaign/accuracy/assessment.hpp"
 #include "campaign/accuracy/cost_figure.hpp"
-#include "campaign/accuracy/precision.hpp"
 #include "campaign/base/csv.hpp"
 #include "campaign/base/duration.hpp"
 #include "campaign/base/job_text.hpp"
@@ -179,45 +178,19 @@ void print_absent(const Assessment& assessment, std::ostream& report) {
   if (!order.empty()) fmt::print(report, "\n");
 }
 
-// What the runs themselves have watched of their rounding, and what is known of each quantity.
-void print_precision(const Assessment& assessment, const schema::Reader& store,
-                     std::ostream& report) {
-  fmt::print(report, "Arithmetic: double.");
+// What the runs have watched of their rounding themselves.
+void print_rounding(const schema::Reader& store, std::ostream& report) {
+  fmt::print(report, "Arithmetic: double (engine/decisions/double-precision.md).");
   auto rows = store.query("SELECT max(energy_mismatch), max(largest_overlap) FROM invariants");
   const auto row = rows.next().value();
   const auto* energy = std::get_if<double>(row.data());
   const auto* overlap = std::get_if<double>(&row[1]);
   if (energy != nullptr && overlap != nullptr)
     fmt::print(report,
-               " In all runs energy is balanced to {:.1e}, overlaps are at most {:.1e} sigma.",
+               " In all runs the energy is balanced to {:.1e}, and overlaps are at most\n{:.1e} "
+               "sigma.",
                *energy, *overlap);
-
-  TextTable table({{"quantity", Align::left},
-                   {"measured", Align::left},
-                   {"N"},
-                   {"runs"},
-                   {"single less double"},
-                   {"error"}});
-  std::vector<std::string> done;
-  for (const Statistics& each : assessment.statistics) {
-    const std::string quantity = describe(each.quantity);
-    if (std::ranges::find(done, quantity) != done.end()) continue;
-    done.push_back(quantity);
-    const auto shifts = single_less_double(each.quantity);
-    if (shifts.empty())
-      table.add({quantity, "not measured", no_value, no_value, no_value, no_value});
-    for (const PrecisionShift& shift : shifts)
-      table.add({quantity, shift.quantity == each.quantity ? "itself" : describe(shift.quantity),
-                 count_text(shift.particles),
-                 count_text(static_cast<long long>(shift.realizations)),
-                 fmt::format("{:+.1e}", shift.value), error_text(shift.error)});
-  }
-  fmt::print(report,
-             "\nWhat is known of a shift by rounding is what single precision does, which rounds "
-             "2^29 times as\ncoarsely, measured at e = {:g}, n = {:g} (README, What accuracy "
-             "costs); in double it has not been\nmeasured, and if it is in proportion to rounding "
-             "it is 2^29 times less:\n\n{}\n",
-             precision_e, precision_n, table.text());
+  fmt::print(report, "\n\n");
 }
 
 struct Advice {
@@ -351,9 +324,9 @@ std::string text_of(const CsvLine& line) {
   const Quantity& q = line.quantity;
   const schema::Job& job = line.job;
   return csv_row(line.row, name(q.measure), q.from, q.to, q.r, job.e, job.n, job.particles,
-                 job.equilibrate, job.precision, line.cause, line.realizations, line.cpu_seconds,
-                 line.value, line.error, line.interval, line.slope, line.slope_error,
-                 line.correlation_time, line.memory_bytes);
+                 job.equilibrate, line.cause, line.realizations, line.cpu_seconds, line.value,
+                 line.error, line.interval, line.slope, line.slope_error, line.correlation_time,
+                 line.memory_bytes);
 }
 
 std::string statistics_lines(const Statistics& each) {
@@ -384,34 +357,12 @@ std::string statistics_lines(const Statistics& each) {
   return text;
 }
 
-// What is known of rounding, once for each quantity.
-std::string precision_lines(const Assessment& assessment) {
-  std::string text;
-  std::vector<Quantity> done;
-  for (const Statistics& each : assessment.statistics) {
-    if (std::ranges::find(done, each.quantity) != done.end()) continue;
-    done.push_back(each.quantity);
-    for (const PrecisionShift& shift : single_less_double(each.quantity))
-      text += text_of({.row = "shift",
-                       .quantity = shift.quantity,
-                       .job = {.e = precision_e,
-                               .n = precision_n,
-                               .particles = shift.particles,
-                               .precision = "single"},
-                       .cause = "single less double",
-                       .realizations = shift.realizations,
-                       .value = shift.value,
-                       .error = shift.error});
-  }
-  return text;
-}
-
 void write_csv(const Assessment& assessment, const std::vector<Advice>& advised,
                const std::filesystem::path& file) {
   std::string text =
       csv_row("row", "quantity", "tau_from", "tau_to", "r", "e", "n", "particles", "equilibrate",
-              "precision", "cause", "realizations", "cpu_seconds", "value", "error", "interval",
-              "slope", "slope_error", "correlation_time", "memory_bytes");
+              "cause", "realizations", "cpu_seconds", "value", "error", "interval", "slope",
+              "slope_error", "correlation_time", "memory_bytes");
   for (const Statistics& each : assessment.statistics) text += statistics_lines(each);
   for (const Shift& each : assessment.shifts)
     text += text_of({.row = "shift",
@@ -420,7 +371,6 @@ void write_csv(const Assessment& assessment, const std::vector<Advice>& advised,
                      .cause = each.change,
                      .value = each.value,
                      .error = each.error});
-  text += precision_lines(assessment);
   for (const Advice& each : advised) {
     if (!each.offer) continue;
     text += text_of({.row = "advice",
@@ -510,7 +460,7 @@ int cost(const schema::Reader& store, const CostRequest& request, std::ostream& 
   print_statistics(assessment, report);
   print_shifts(assessment, report);
   print_unknown(assessment, report);
-  print_precision(assessment, store, report);
+  print_rounding(store, report);
   print_absent(assessment, report);
   print_unanswered(assessment, request, advised, report);
   print_advice(advised, report);

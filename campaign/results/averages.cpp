@@ -36,9 +36,9 @@ constexpr const char* shuffled_gas =
 // What tells series apart: the whole identity of a job but its seed. Of the columns from the fourth
 // on, those of gases that were prepared, changed or sampled in other ways.
 constexpr const char* key_columns =
-    "e, n, particles, sample_every, equilibrate, effects, precision, observables, "
+    "e, n, particles, sample_every, equilibrate, effects, observables, "
     "coalesce(profiles_every, 0), coalesce(fields_at, '')";
-constexpr std::size_t keys = 10;
+constexpr std::size_t keys = 9;
 
 schema::Row key_of(const schema::Row& row) {
   return {row.begin(), row.begin() + keys};

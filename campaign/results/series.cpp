@@ -18,7 +18,7 @@ namespace {
 
 // Equal for realizations of one series, and ordered as tables are.
 using Key = std::tuple<int, double, std::int64_t, std::optional<double>, double, double,
-                       std::string, std::string, std::string, std::optional<double>, std::string>;
+                       std::string, std::string, std::optional<double>, std::string>;
 
 std::string fields_at(const schema::Job& job) {
   return job.fields_at.empty() ? "" : schema::fields_at_text(job.fields_at);
@@ -31,7 +31,6 @@ Key key_of(const schema::Job& job) {
           job.e,
           job.equilibrate,
           job.sample_every,
-          job.precision,
           job.effects,
           schema::observables_text(job.observables),
           job.profiles_every,
@@ -51,7 +50,7 @@ std::optional<double> real_or_null(const schema::Value& value) {
 
 std::map<Key, TauC> mean_tau_c(const schema::Reader& store) {
   auto rows = store.query(
-      "SELECT d, n, particles, e, equilibrate, sample_every, precision, effects, observables, "
+      "SELECT d, n, particles, e, equilibrate, sample_every, effects, observables, "
       "profiles_every, coalesce(fields_at, ''), reached, tau_c, tau_c_se FROM mean_tau_c");
   std::map<Key, TauC> means;
   while (const auto row = rows.next()) {
@@ -66,11 +65,10 @@ std::map<Key, TauC> mean_tau_c(const schema::Reader& store) {
                   real(5),
                   text(6),
                   text(7),
-                  text(8),
-                  real_or_null((*row)[9]),
-                  text(10)};
-    means[key] = {static_cast<int>(integer(11)), real_or_null((*row)[12]),
-                  real_or_null((*row)[13])};
+                  real_or_null((*row)[8]),
+                  text(9)};
+    means[key] = {static_cast<int>(integer(10)), real_or_null((*row)[11]),
+                  real_or_null((*row)[12])};
   }
   return means;
 }
@@ -112,7 +110,6 @@ class Rest {
             {"observables", schema::observables_text(job.observables)},
             {"profiles_every", job.profiles_every ? number_text(*job.profiles_every) : "none"},
             {"fields_at", fields_at(job)},
-            {"precision", job.precision},
             {"effects", job.effects}};
   }
 

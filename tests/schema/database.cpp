@@ -172,6 +172,15 @@ TEST_CASE("migration runs the scripts a store has not seen, once") {
   CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == 2);
 }
 
+namespace {
+
+// An identity as the stores up to version 7 have it.
+std::string with_precision(std::string identity) {
+  return identity.insert(identity.find(R"(,"sample_every":)"), R"(,"precision":"double")");
+}
+
+}  // namespace
+
 TEST_CASE("a store of the first version is brought forward with its rows") {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";
@@ -184,7 +193,7 @@ TEST_CASE("a store of the first version is brought forward with its rows") {
       INSERT INTO jobs (identity, kind, d, e, n, particles, seed, equilibrate, sample_every,
                         precision, effects, observables, tau_max, checkpoint_every, created)
       VALUES (')" +
-                identity(job) + R"(', 'equilibration', 3, 1, 0.4, 1000,
+                with_precision(identity(job)) + R"(', 'equilibration', 3, 1, 0.4, 1000,
               1, 50, 10, 'double', '{}', '["laguerre","temperature"]', 50, 10, 'then');
       INSERT INTO samples VALUES (1, 0, 0, 0.5, NULL, NULL, NULL, 0.1, 0.1, 0.1, 0.1, 0.1))");
   }
@@ -194,6 +203,54 @@ TEST_CASE("a store of the first version is brought forward with its rows") {
   CHECK(store.samples(1)[0].temperature == 0.5);
   CHECK_FALSE(store.samples(1)[0].largest_cluster);
   CHECK(store.add(plan({cooling()})) == std::vector{Outcome::unchanged, Outcome::added});
+}
+
+TEST_CASE("a store that names a precision keeps its jobs and targets without it") {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.db";
+  const std::vector<Planned> jobs = plan({cooling(0.8, 1), cooling(0.8, 2)});
+  const Target target{
+      .series = series_identity(cooling()), .quantity = "tau_c", .se = 0.1, .pilots = {1, 2}};
+  {
+    SQLite::Database sqlite = plain(path);
+    std::vector<std::string_view> scripts;
+    for (const Embedded& file : embedded())
+      if (file.name.ends_with(".sql") && file.name < "010") scripts.push_back(file.text);
+    migrate(sqlite, path, scripts);
+    for (const Planned& each : jobs) {
+      SQLite::Statement insert(sqlite, R"(
+        INSERT INTO jobs (identity, kind, d, e, n, particles, seed, equilibrate, sample_every,
+                          precision, effects, observables, tau_max, checkpoint_every, created,
+                          equilibration_id)
+        VALUES (?1, ?2, 3, ?3, 0.4, 1000, ?4, 50, ?5, 'double', '{}',
+                '["laguerre","temperature"]', ?6, 10, 'then',
+                iif(?2 = 'cooling', (SELECT job_id FROM jobs WHERE kind = 'equilibration'
+                                     AND seed = ?4), NULL)))");
+      insert.bind(1, with_precision(identity(each.job)));
+      insert.bind(2, std::string(name(each.job.kind)));
+      insert.bind(3, *each.job.e);
+      insert.bind(4, static_cast<std::int64_t>(each.job.seed));
+      insert.bind(5, each.job.sample_every);
+      insert.bind(6, each.tau_max);
+      insert.exec();
+    }
+    const std::string series = with_precision(target.series);
+    sqlite.exec("INSERT INTO targets VALUES ('" + series + "', 'tau_c', 0, 0, 0.1, '[1,2]')");
+    sqlite.exec("INSERT INTO target_predictions VALUES ('" + series +
+                "', 'tau_c', 0, 0, 0.1, 9, 5.5, 'then')");
+  }
+  Store store = Store::open(path);
+  CHECK(store.add(jobs) == std::vector(4, Outcome::unchanged));
+  store.add({target});
+  const std::vector<Target> targets = store.targets();
+  REQUIRE(targets.size() == 1);
+  CHECK(targets[0].series == target.series);
+  REQUIRE(targets[0].prediction);
+  CHECK(targets[0].prediction->realizations == 9);
+  CHECK(store.query("SELECT count(*) FROM mean_series").next());
+  for (const char* none : {"SELECT 1 FROM pragma_table_info('jobs') WHERE name = 'precision'",
+                           "SELECT 1 FROM pragma_foreign_key_check"})
+    CHECK_FALSE(store.query(none).next());
 }
 
 TEST_CASE("a migration that fails changes nothing") {

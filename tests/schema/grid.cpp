@@ -187,7 +187,7 @@ TEST_CASE("an unknown key is named with the nearest known one") {
       with("density", "1"),
       "g.json: /density: unknown key; expected one of \"N\", \"checkpoint_every\", "
       "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
-      "\"observables\", \"precision\", "
+      "\"observables\", "
       "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
   check_complaint(R"({"E": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 1})",
                   "g.json: /E: unknown key; did you mean \"e\"?");
@@ -195,17 +195,13 @@ TEST_CASE("an unknown key is named with the nearest known one") {
       with("a/b~c", "1"),
       "g.json: /a~1b~0c: unknown key; expected one of \"N\", \"checkpoint_every\", "
       "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
-      "\"observables\", \"precision\", "
+      "\"observables\", "
       "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
 }
 
-TEST_CASE("the only precision is double; single is refused with the reason") {
-  CHECK(parse(with("precision", "\"double\"")).grids[0].particles ==
-        parse(with("e", "0.8")).grids[0].particles);
-  check_complaint(with("precision", "\"single\""),
-                  "g.json: /precision: \"single\" is not accepted; expected \"double\", the "
-                  "arithmetic of the engine; \"single\" was tried, and is refused because it was "
-                  "but 1.1 times as fast (README, What accuracy costs)");
+TEST_CASE("a key of earlier versions is refused with the reason") {
+  check_complaint(with("precision", "\"double\""),
+                  "g.json: /precision: is no longer a key: every run is in double; leave it out");
 }
 
 TEST_CASE("a missing key is named") {

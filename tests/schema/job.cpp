@@ -12,13 +12,13 @@ using namespace haff::schema;
 TEST_CASE("the identity is the physics as canonical JSON") {
   CHECK(identity(cooling()) ==
         R"({"d":3,"e":0.8,"effects":{},"equilibrate":50,"kind":"cooling","n":0.4,)"
-        R"("observables":["laguerre","temperature"],"particles":1000,"precision":"double",)"
+        R"("observables":["laguerre","temperature"],"particles":1000,)"
         R"("sample_every":1,"seed":1})");
 }
 
 TEST_CASE("every part of the physics makes another job") {
   const Job job = cooling();
-  std::vector<Job> others(11, job);
+  std::vector<Job> others(10, job);
   others[0].kind = Kind::equilibration;
   others[1].d = 2;
   others[2].e = 0.8000000000000002;
@@ -27,9 +27,8 @@ TEST_CASE("every part of the physics makes another job") {
   others[5].seed = 2;
   others[6].equilibrate = 60;
   others[7].sample_every = 2;
-  others[8].precision = "single";
-  others[9].effects = R"({"shuffle":{"every":1}})";
-  others[10].observables = {"temperature"};
+  others[8].effects = R"({"shuffle":{"every":1}})";
+  others[9].observables = {"temperature"};
   for (const Job& other : others) CHECK(identity(other) != identity(job));
 }
 
@@ -40,7 +39,7 @@ TEST_CASE("profiles and fields are physics of the jobs that take them") {
   CHECK(identity(job) ==
         R"({"d":3,"e":0.8,"effects":{},"equilibrate":50,"fields_at":[20,60.5],"kind":"cooling",)"
         R"("n":0.4,"observables":["laguerre","temperature"],"particles":1000,)"
-        R"("precision":"double","profiles_every":10,"sample_every":1,"seed":1})");
+        R"("profiles_every":10,"sample_every":1,"seed":1})");
   CHECK(fields_at_in(fields_at_text(job.fields_at)) == job.fields_at);
   CHECK(identity(equilibration_of(job)) == identity(equilibration_of(cooling())));
 }

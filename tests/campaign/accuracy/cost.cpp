@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "campaign/accuracy/assessment.hpp"
-#include "campaign/accuracy/precision.hpp"
 #include "support/synthetic_store.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -292,14 +291,6 @@ TEST_CASE("cost: where the largest gas is known too badly more of it is advised"
   CHECK_FALSE(smaller_might_do(assess(two_sizes()), key, a2, 1e-4));
 }
 
-TEST_CASE("cost: of rounding each quantity has what was measured of it, or of its measure") {
-  CHECK(single_less_double(a2).size() == 2);
-  for (const PrecisionShift& each : single_less_double(a2)) CHECK(each.quantity == a2);
-  CHECK(single_less_double(usual_quantity(Measure::ln_temperature, 134)).size() == 4);
-  CHECK(single_less_double(usual_quantity(Measure::correlation, 50)).size() == 2);
-  CHECK(single_less_double(usual_quantity(Measure::a4)).empty());
-}
-
 TEST_CASE("cost: where runs end before their tau_c the mean of the others is no measure") {
   auto series = two_sizes();
   for (PilotSeries& each : series)
@@ -328,7 +319,7 @@ TEST_CASE("cost: writes a table, a CSV of whole rows, and pictures") {
   CHECK(report.str().find("finite size") != std::string::npos);
   CHECK(report.str().find("The cheapest way to an error") != std::string::npos);
   CHECK(report.str().find("rests on the scatter of 4 runs") != std::string::npos);
-  CHECK(report.str().find("single less double") != std::string::npos);
+  CHECK(report.str().find("Arithmetic: double") != std::string::npos);
   std::istringstream csv(text_of(folder.path() / "cost" / "cost.csv"));
   std::string head, line;
   std::getline(csv, head);
