@@ -54,7 +54,7 @@ struct Job {
   std::uint64_t seed = 0;       // realization, 0 ... 2^53 - 1
   double equilibrate = 50;      // elastic collisions per particle before cooling
   double sample_every = 1;      // samples are taken at tau = k sample_every
-  std::string effects = "{}";                 // JSON object, keys sorted, no spaces
+  std::string effects = "{}";   // JSON object, keys sorted, no spaces
   std::vector<std::string> observables = {};  // listed in grid.schema.json; in any order
   std::optional<double> profiles_every = {};  // profiles at tau = k profiles_every; empty: none
   std::vector<double> fields_at = {};         // fields at these tau, increasing
