@@ -54,20 +54,26 @@ void write_shard(const schema::Store& store, const WrittenShard& shard) {
 
 }  // namespace
 
-std::vector<WrittenShard> split(schema::Store& store, std::size_t count, const fs::path& folder) {
+std::vector<WrittenShard> planned_shards(const schema::Reader& store, std::size_t count,
+                                         const fs::path& folder) {
   std::vector<WrittenShard> shards;
-  std::vector<schema::Loan> loans;
   int number = last_number(store.shards());
   for (Share& share : divide(store.jobs(), count)) {
     const std::string name = fmt::format("shard-{:03}", ++number);
-    const fs::path path = fs::absolute(folder) / (name + ".db");
-    must_be_free(path);
-    loans.push_back({name, path, share.jobs});
-    shards.push_back({name, path, std::move(share)});
+    shards.push_back({name, fs::absolute(folder) / (name + ".db"), std::move(share)});
+    must_be_free(shards.back().path);
   }
+  return shards;
+}
+
+std::vector<WrittenShard> split(schema::Store& store, std::size_t count, const fs::path& folder) {
+  std::vector<WrittenShard> shards = planned_shards(store, count, folder);
   if (shards.empty()) return shards;
 
   fs::create_directories(folder);
+  std::vector<schema::Loan> loans;
+  for (const WrittenShard& shard : shards)
+    loans.push_back({shard.name, shard.path, shard.share.jobs});
   store.lend(loans);
   try {
     for (const WrittenShard& shard : shards) write_shard(store, shard);

@@ -11,12 +11,17 @@
 
 namespace haff::campaign {
 
-// A shard that was written.
+// A shard that is written, or would be.
 struct WrittenShard {
   std::string name;            // shard-001
   std::filesystem::path path;  // <folder>/shard-001.db
   Share share;
 };
+
+// The shards that split() would write, with names that go on from those that the store has lent to
+// before. Throws StoreError if a file of such a name is there.
+std::vector<WrittenShard> planned_shards(const schema::Reader& store, std::size_t count,
+                                         const std::filesystem::path& folder);
 
 // Lends all pending jobs of the store to at most `count` new shards in this folder, which is made
 // if it is not there. Names go on from the shards that the store has lent to before. If a shard

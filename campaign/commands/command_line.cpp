@@ -210,7 +210,9 @@ CLI::App* add_split(CLI::App& app, SplitOptions& options) {
       ->check(CLI::Range(1, most_workers))
       ->type_name("K")
       ->capture_default_str();
+  command->add_flag("--dry-run", options.dry_run, "Print the division; write and lend nothing");
   command->footer(examples(R"(  campaign split --into 4
+  campaign split --into 64 --workers 8 --dry-run
   campaign run --store shards/shard-001.db     on another machine, like any store
   campaign merge shards/shard-*.db             when they have ended, or before
 

@@ -39,14 +39,22 @@ void print(const std::vector<WrittenShard>& shards, int workers) {
 }  // namespace
 
 int split(const SplitOptions& options) {
-  schema::Store store = schema::Store::open(options.store);
-  take_back_from_the_dead(store);
-  const auto shards = split(store, options.into, options.out);
+  const auto shards = [&] {
+    if (options.dry_run)
+      return planned_shards(schema::Reader(options.store), options.into, options.out);
+    schema::Store store = schema::Store::open(options.store);
+    take_back_from_the_dead(store);
+    return split(store, options.into, options.out);
+  }();
   if (shards.empty()) {
     say("No job is pending: there is nothing to lend.\n");
     return exit_complete;
   }
   print(shards, options.workers);
+  if (options.dry_run) {
+    say("Nothing was written or lent.\n");
+    return exit_complete;
+  }
   const std::string all = shell_word((options.out / "").string()) + "shard-*.db";
   say("Next: {} on another machine; then here: {}\n", command_text("run", shards.front().path),
       command_text("merge " + all, options.store));

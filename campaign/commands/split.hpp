@@ -10,7 +10,8 @@ struct SplitOptions {
   std::filesystem::path store;
   std::size_t into = 0;
   std::filesystem::path out = "shards";
-  int workers = 1;  // of each shard, for the expected time
+  int workers = 1;       // of each shard, for the expected time
+  bool dry_run = false;  // print the table only
 };
 
 // Writes the shards, prints the load of each, and returns an ExitCode.
