@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -53,30 +54,40 @@ void mix(std::vector<Particle>& particles, std::uint64_t seed) {
     std::swap(particles[k].id, particles[random.below(k + 1)].id);
 }
 
+Box box_of(double n, std::uint32_t count, int d) {
+  return Box(d == 2 ? std::sqrt(count / n) : cube_root(count / n), d);
+}
+
 }  // namespace
+
+bool begins_on_lattice(double n, std::uint32_t particles, int d) {
+  return lattice_fits(particles, box_of(n, particles, d));
+}
 
 State initial_state(double n, std::uint32_t count, std::uint64_t seed, int d,
                     const std::map<std::string, Parameters>& effects) {
-  const Box box(d == 2 ? std::sqrt(count / n) : cube_root(count / n), d);
+  const Box box = box_of(n, count, d);
+  const auto asked = effects.find("mixture");
+  const auto mixture =
+      asked == effects.end() ? std::nullopt : std::optional(mixture_of(asked->second, count));
   const auto lattice = lattice_positions(count, box);
-  const std::vector<Vector> positions = lattice ? *lattice : grown_positions(count, box, seed);
+  const std::vector<Vector> positions =
+      lattice ? *lattice : grown_positions(count, box, seed, mixture);
   std::vector<Particle> particles(count);
   for (std::uint32_t k = 0; k < count; ++k) {
     particles[k].position = positions[k];
     particles[k].id = k;
   }
-  const auto asked = effects.find("mixture");
-  if (asked == effects.end()) {
+  if (!mixture) {
     draw_velocities(particles, seed, d, EqualMasses{});
     sort_in_space(particles, box);
     return to_state(particles, Clock{}, box);
   }
-  const Mixture mixture = mixture_of(asked->second, count);
-  mix(particles, seed);
-  draw_velocities(particles, seed, d, MixedMasses{mixture});
+  if (lattice) mix(particles, seed);  // a particle that has grown has the place of its size
+  draw_velocities(particles, seed, d, MixedMasses{*mixture});
   sort_in_space(particles, box);
   State state = to_state(particles, Clock{}, box);
-  note(mixture, state);
+  note(*mixture, state);
   return state;
 }
 

@@ -11,6 +11,8 @@
 namespace haff::engine {
 namespace {
 
+// Growth is told by the diameter of the largest spheres, which grows from 0 to sigma.
+
 // d(diameter)/dt, in units of the thermal speed: slow enough to reach random close packing, and
 // fast enough to avoid crystallization on the way.
 constexpr double growth_rate = 0.02;
@@ -18,14 +20,30 @@ constexpr double growth_rate = 0.02;
 // synchronizations. [sigma]
 constexpr double least_growth = 1e-5;
 
-// Elastic spheres whose diameter is `diameter` + growth_rate * (time since the synchronization).
+// The distance of the centres at contact of two full-grown particles. [sigma]
+struct EqualSizes {
+  static constexpr double contact_distance(const Particle&, const Particle&) { return 1; }
+};
+struct TwoSizes {
+  Mixture mixture;
+  double contact_distance(const Particle& a, const Particle& b) const {
+    return mixture.contact_distance(a.id, b.id);
+  }
+};
+
+// Elastic spheres that have grown to the part `diameter` + growth_rate * (time since the
+// synchronization) of their final size.
+template <class Sizes>
 struct GrowingSpheres {
   double diameter;
+  Sizes sizes;
 
-  double contact_time(const Encounter& pair, const Particle&, const Particle&) const {
-    const double wide = diameter + growth_rate * pair.start;
-    const double approach = dot(pair.r, pair.v) - wide * growth_rate;
-    const double speed2 = dot(pair.v, pair.v) - growth_rate * growth_rate;
+  double contact_time(const Encounter& pair, const Particle& a, const Particle& b) const {
+    const double size = sizes.contact_distance(a, b);
+    const double rate = growth_rate * size;
+    const double wide = (diameter + growth_rate * pair.start) * size;
+    const double approach = dot(pair.r, pair.v) - wide * rate;
+    const double speed2 = dot(pair.v, pair.v) - rate * rate;
     const double gap = dot(pair.r, pair.r) - wide * wide;
     const double discriminant = approach * approach - speed2 * gap;
     // A pair that separates more slowly than the spheres grow touches, too.
@@ -38,9 +56,9 @@ struct GrowingSpheres {
     advance(b, now);
     const Encounter contact(a, b, now, box);
     const double distance2 = dot(contact.r, contact.r);
-    // Reflected in the frame of the surfaces, which move at growth_rate / 2 each.
-    const double change =
-        dot(contact.r, contact.v) / distance2 - growth_rate / std::sqrt(distance2);
+    // Reflected in the frame of the surfaces, which part at the rate at which the two grow.
+    const double rate = growth_rate * sizes.contact_distance(a, b);
+    const double change = dot(contact.r, contact.v) / distance2 - rate / std::sqrt(distance2);
     for (std::size_t k = 0; k < 3; ++k) {
       a.velocity[k] += change * contact.r[k];
       b.velocity[k] -= change * contact.r[k];
@@ -51,8 +69,8 @@ struct GrowingSpheres {
   }
 };
 
-template <class Candidates, int d>
-using Loop = HWY_NAMESPACE::EventLoop<PlainSearch<GrowingSpheres, Candidates, d>, GrowingSpheres>;
+template <class Spheres, class Candidates, int d>
+using Loop = HWY_NAMESPACE::EventLoop<PlainSearch<Spheres, Candidates, d>, Spheres>;
 
 State random_points(std::uint32_t count, const Box& box, std::uint64_t seed) {
   Random random(seed, Stream::growth);
@@ -78,15 +96,15 @@ void cool(Gas& gas) {
 }
 
 // Runs until the next synchronization, or until the spheres are full-grown.
-template <class Candidates, int d>
-void grow_among(Gas& gas, GrowingSpheres spheres, std::int64_t collisions) {
-  Loop<Candidates, d> loop(gas, spheres);
+template <class Candidates, int d, class Spheres>
+void grow_among(Gas& gas, Spheres spheres, std::int64_t collisions) {
+  Loop<Spheres, Candidates, d> loop(gas, spheres);
   loop.predict_all();
   loop.run(collisions, (1 - spheres.diameter) / growth_rate);
 }
 
-template <int d>
-void grow(Gas& gas, const GrowingSpheres& spheres, std::int64_t collisions) {
+template <int d, class Spheres>
+void grow(Gas& gas, const Spheres& spheres, std::int64_t collisions) {
   if (!Bricks::fits(gas.box))
     grow_among<AllParticlesAllImages, d>(gas, spheres, collisions);
   else if (!gas.bricks.tell_images_apart())
@@ -95,27 +113,37 @@ void grow(Gas& gas, const GrowingSpheres& spheres, std::int64_t collisions) {
     grow_among<NearbyNearestImage, d>(gas, spheres, collisions);
 }
 
-}  // namespace
-
-std::vector<Vector> grown_positions(std::uint32_t count, const Box& box, std::uint64_t seed) {
-  Gas gas(random_points(count, box, seed));
+template <class Sizes>
+void grow_to_full_size(Gas& gas, const Sizes& sizes) {
   for (double diameter = 0; diameter < 1;) {
     cool(gas);
     prepare(gas);
+    const auto count = static_cast<std::uint32_t>(gas.particles.size());
     const std::int64_t stop = next_synchronization(gas.clock.collisions, count);
-    if (box.d == 2)
-      grow<2>(gas, {diameter}, stop);
+    if (gas.box.d == 2)
+      grow<2>(gas, GrowingSpheres<Sizes>{diameter, sizes}, stop);
     else
-      grow<3>(gas, {diameter}, stop);
+      grow<3>(gas, GrowingSpheres<Sizes>{diameter, sizes}, stop);
     const double growth = growth_rate * gas.clock.now;
     const bool full_grown = gas.clock.collisions < stop;  // stopped by time
     if (!full_grown && growth < least_growth)
-      throw std::invalid_argument("spheres grown into a box of side " + std::to_string(box.side) +
-                                  " jammed at diameter " + std::to_string(diameter) +
-                                  ": n is too high");
+      throw std::invalid_argument("spheres grown into a box of side " +
+                                  std::to_string(gas.box.side) + " jammed at diameter " +
+                                  std::to_string(diameter) + ": n is too high");
     diameter = full_grown ? 1 : diameter + growth;
-    synchronize(gas.particles, gas.clock, box);
+    synchronize(gas.particles, gas.clock, gas.box);
   }
+}
+
+}  // namespace
+
+std::vector<Vector> grown_positions(std::uint32_t count, const Box& box, std::uint64_t seed,
+                                    const std::optional<Mixture>& mixture) {
+  Gas gas(random_points(count, box, seed));
+  if (mixture)
+    grow_to_full_size(gas, TwoSizes{*mixture});
+  else
+    grow_to_full_size(gas, EqualSizes{});
   std::vector<Vector> positions(count);
   for (const Particle& p : gas.particles) positions[p.id] = p.position;
   return positions;

@@ -1,20 +1,23 @@
 // Grows spheres into place where no lattice fits.
 //
 // B. D. Lubachevsky and F. H. Stillinger, J. Stat. Phys. 60, 561 (1990): spheres that
-// start as random points move and collide elastically while their diameter grows at a constant
-// rate, until it is sigma.
+// start as random points move and collide elastically while their diameters grow at a constant
+// rate, all of them in proportion to their final values, until they have reached these.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "engine/mixture.hpp"
 #include "engine/particles/box.hpp"
 #include "engine/particles/particle.hpp"
 
 namespace haff::engine {
 
-// Positions of `count` spheres (disks if the box is a square) of diameter 1 in the box. Throws
-// std::invalid_argument if they jam before.
-std::vector<Vector> grown_positions(std::uint32_t count, const Box& box, std::uint64_t seed);
+// Positions of `count` spheres (disks if the box is a square) in the box, by id: of diameter 1, or
+// of the diameters that the mixture gives them. Throws std::invalid_argument if they jam before.
+std::vector<Vector> grown_positions(std::uint32_t count, const Box& box, std::uint64_t seed,
+                                    const std::optional<Mixture>& mixture = {});
 
 }  // namespace haff::engine

@@ -85,4 +85,8 @@ std::optional<std::vector<Vector>> lattice_positions(std::uint32_t count, const 
   return std::nullopt;
 }
 
+bool lattice_fits(std::uint32_t count, const Box& box) {
+  return box.d == 2 ? triangular(count, box).distance >= 1 : cubic_lattice_fits(count, box);
+}
+
 }  // namespace haff::engine

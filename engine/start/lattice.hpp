@@ -14,4 +14,7 @@ namespace haff::engine {
 // sigma.
 std::optional<std::vector<Vector>> lattice_positions(std::uint32_t count, const Box& box);
 
+// Whether there is such a lattice.
+bool lattice_fits(std::uint32_t count, const Box& box);
+
 }  // namespace haff::engine

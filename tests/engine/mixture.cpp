@@ -307,6 +307,24 @@ TEST_CASE("mixture: spheres may be as near as their radii allow, and no nearer")
   CHECK(unsoundness(state).value().find("overlap") != std::string::npos);
 }
 
+TEST_CASE("mixture: small particles grow to their own size, where no lattice of large ones fits") {
+  // Number densities at which spheres of diameter 1 would fill more than the box; of these gases
+  // the volume fractions are 0.31, 0.07 and, of disks, 0.69.
+  const auto check = [](const Model& model, double n, std::uint32_t particles, int d) {
+    CAPTURE(n);
+    CHECK_FALSE(begins_on_lattice(n, particles, d));
+    const State state = start_of(model, n, particles, 1, d);
+    CHECK(unsoundness(state).value_or("") == "");
+    CHECK(Sums(state).energy == doctest::Approx(particles).epsilon(1e-12));
+    Simulation gas(model, state);
+    gas.run_to(collisions_at(20, particles));
+    CHECK(unsoundness(gas.state()).value_or("") == "");
+  };
+  check(mixed(0.9, 0.857, 0.4, 0.064), 3, 1008, 3);
+  check(mixed(0.9, 0.9, 0.1, 0.001), 1.25, 1000, 3);
+  check(mixed(0.9, 0.5, 0.5, 0.25), 1.4, 400, 2);
+}
+
 TEST_CASE("mixture: what does not fit is named") {
   const State plain = initial_state(0.4, 108, 1);
   const Model model = mixed(0.8, 0.5, 0.5, 0.2);
