@@ -9,9 +9,10 @@
 
 namespace haff::schema {
 
-// The interval about the mean rests on the scatter of the pilot runs (analysis/accuracy.hpp), which
-// fewer know too badly: 5 make it 2.8 standard errors to either side instead of 2, 3 would 4.3, and
-// their forecast of how many realizations there will be is right within a factor of about 2.
+// The interval about the mean rests on the scatter of the pilot runs
+// (analysis/statistics/accuracy.hpp), which fewer know too badly: 5 make it 2.8 standard errors to
+// either side instead of 2, 3 would 4.3, and their forecast of how many realizations there will be
+// is right within a factor of about 2.
 inline constexpr std::size_t fewest_pilots = 5;
 
 // What a target was expected to take when its pilot runs were done.

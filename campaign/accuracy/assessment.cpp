@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "analysis/energy_equation.hpp"
-#include "analysis/statistics.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "analysis/theory/energy_equation.hpp"
 #include "campaign/base/job_text.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/text_table.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/accuracy.hpp"
+#include "analysis/statistics/accuracy.hpp"
 #include "campaign/accuracy/quantity.hpp"
 
 namespace haff::campaign {

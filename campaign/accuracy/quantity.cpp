@@ -6,9 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "analysis/accuracy.hpp"
-#include "analysis/cooling.hpp"
-#include "analysis/statistics.hpp"
+#include "analysis/statistics/accuracy.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "analysis/theory/cooling.hpp"
 
 namespace haff::campaign {
 namespace {

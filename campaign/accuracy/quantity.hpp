@@ -55,8 +55,8 @@ std::optional<OneRunError> error_within(const Quantity& quantity, const schema::
                                         const Pilot& pilot);
 
 // Half the 95 % interval of the mean of a series that was run until a target was met: the scatter
-// of the target's pilot runs alone decides (analysis/accuracy.hpp says why). Nothing until each of
-// them has a value.
+// of the target's pilot runs alone decides (analysis/statistics/accuracy.hpp says why). Nothing
+// until each of them has a value.
 std::optional<double> half_interval(const schema::Target& target, const PilotSeries& series);
 
 // CPU time of one realization run as far as the quantity needs, its equilibration included and

@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "analysis/accuracy.hpp"
+#include "analysis/statistics/accuracy.hpp"
 #include "campaign/accuracy/quantity.hpp"
 #include "campaign/base/duration.hpp"
 #include "campaign/base/job_text.hpp"

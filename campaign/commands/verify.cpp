@@ -8,7 +8,7 @@
 #include <optional>
 #include <variant>
 
-#include "analysis/cooling.hpp"
+#include "analysis/theory/cooling.hpp"
 #include "campaign/base/command_text.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/job_text.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/equilibrium.hpp"
+#include "analysis/observables/equilibrium.hpp"
 #include "campaign/job/measurement.hpp"
 #include "campaign/job/timetable.hpp"
 #include "campaign/state/model.hpp"

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <string_view>
 
-#include "analysis/coarse_grained.hpp"
-#include "analysis/cooling.hpp"
-#include "analysis/correlations.hpp"
-#include "analysis/distribution.hpp"
-#include "analysis/equilibrium.hpp"
-#include "analysis/moments.hpp"
-#include "analysis/species.hpp"
-#include "analysis/structure.hpp"
-#include "analysis/velocity_correlations.hpp"
+#include "analysis/observables/coarse_grained.hpp"
+#include "analysis/observables/distribution.hpp"
+#include "analysis/observables/equilibrium.hpp"
+#include "analysis/observables/moments.hpp"
+#include "analysis/observables/species.hpp"
+#include "analysis/observables/structure.hpp"
+#include "analysis/observables/velocity_correlations.hpp"
+#include "analysis/theory/cooling.hpp"
+#include "analysis/theory/correlations.hpp"
 #include "campaign/job/timetable.hpp"
 #include "campaign/state/model.hpp"
 

@@ -8,12 +8,12 @@
 #include <string_view>
 #include <utility>
 
-#include "analysis/cooling.hpp"
-#include "analysis/correlations.hpp"
-#include "analysis/energy_equation.hpp"
-#include "analysis/enskog_boltzmann.hpp"
-#include "analysis/moments.hpp"
-#include "analysis/statistics.hpp"
+#include "analysis/observables/moments.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "analysis/theory/cooling.hpp"
+#include "analysis/theory/correlations.hpp"
+#include "analysis/theory/energy_equation.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/base/csv.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/text_table.hpp"

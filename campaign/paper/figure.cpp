@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "analysis/energy_equation.hpp"
+#include "analysis/theory/energy_equation.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/text_table.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/cooling.hpp"
+#include "analysis/theory/cooling.hpp"
 #include "campaign/paper/figure.hpp"
 
 namespace haff::campaign {

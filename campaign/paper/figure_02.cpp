@@ -8,8 +8,8 @@
 #include <map>
 #include <utility>
 
-#include "analysis/cooling.hpp"
-#include "analysis/energy_equation.hpp"
+#include "analysis/theory/cooling.hpp"
+#include "analysis/theory/energy_equation.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/paper/figure.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/energy_equation.hpp"
+#include "analysis/theory/energy_equation.hpp"
 #include "campaign/paper/figure.hpp"
 
 namespace haff::campaign {

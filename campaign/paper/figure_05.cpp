@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "analysis/enskog_boltzmann.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/paper/figure.hpp"
 
 namespace haff::campaign {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "analysis/enskog_boltzmann.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/paper/figure.hpp"
 

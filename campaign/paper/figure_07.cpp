@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/statistics.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/paper/figure.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "analysis/cooling.hpp"
-#include "analysis/correlations.hpp"
+#include "analysis/theory/cooling.hpp"
+#include "analysis/theory/correlations.hpp"
 #include "campaign/paper/figure.hpp"
 
 namespace haff::campaign {

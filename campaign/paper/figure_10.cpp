@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/cooling.hpp"
+#include "analysis/theory/cooling.hpp"
 #include "campaign/paper/figure.hpp"
 
 namespace haff::campaign {

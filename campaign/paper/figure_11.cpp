@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/energy_equation.hpp"
-#include "analysis/enskog_boltzmann.hpp"
+#include "analysis/theory/energy_equation.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/paper/figure.hpp"
 
 namespace haff::campaign {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/energy_equation.hpp"
-#include "analysis/enskog_boltzmann.hpp"
+#include "analysis/theory/energy_equation.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/paper/figure.hpp"
 

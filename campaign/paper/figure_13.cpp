@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/cooling.hpp"
-#include "analysis/energy_equation.hpp"
+#include "analysis/theory/cooling.hpp"
+#include "analysis/theory/energy_equation.hpp"
 #include "campaign/paper/figure.hpp"
 
 namespace haff::campaign {

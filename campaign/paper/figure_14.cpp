@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/enskog_boltzmann.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/paper/figure.hpp"
 
 namespace haff::campaign {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/statistics.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {

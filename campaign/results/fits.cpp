@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "analysis/cooling.hpp"
-#include "analysis/energy_equation.hpp"
-#include "analysis/late_stage.hpp"
+#include "analysis/statistics/late_stage.hpp"
+#include "analysis/theory/cooling.hpp"
+#include "analysis/theory/energy_equation.hpp"
 
 namespace haff::campaign {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "analysis/statistics.hpp"
+#include "analysis/statistics/statistics.hpp"
 #include "campaign/results/averages.hpp"
 
 namespace haff::campaign {

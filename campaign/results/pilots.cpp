@@ -3,8 +3,8 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/correlations.hpp"
-#include "analysis/velocity_correlations.hpp"
+#include "analysis/observables/velocity_correlations.hpp"
+#include "analysis/theory/correlations.hpp"
 #include "campaign/state/restore.hpp"
 
 namespace haff::campaign {

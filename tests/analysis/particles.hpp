@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "analysis/mesh.hpp"
+#include "analysis/observables/mesh.hpp"
 
 namespace haff::analysis {
 

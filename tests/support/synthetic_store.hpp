@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/cooling.hpp"
-#include "analysis/correlations.hpp"
-#include "analysis/energy_equation.hpp"
-#include "analysis/enskog_boltzmann.hpp"
+#include "analysis/theory/cooling.hpp"
+#include "analysis/theory/correlations.hpp"
+#include "analysis/theory/energy_equation.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {

@@ -1,13 +1,13 @@
 // Error bars of real gases: a large set of seeds split into small ones, whose intervals must hold
 // the mean of all as often as they say.
-#include "analysis/accuracy.hpp"
+#include "analysis/statistics/accuracy.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "analysis/moments.hpp"
+#include "analysis/observables/moments.hpp"
 #include "engine/initial.hpp"
 #include "engine/simulation.hpp"
 

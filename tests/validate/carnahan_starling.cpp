@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "analysis/enskog.hpp"
+#include "analysis/theory/enskog.hpp"
 #include "engine/initial.hpp"
 #include "engine/simulation.hpp"
 

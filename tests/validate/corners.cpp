@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/enskog.hpp"
+#include "analysis/theory/enskog.hpp"
 #include "engine/initial.hpp"
 #include "engine/soundness.hpp"
 #include "support/gas.hpp"

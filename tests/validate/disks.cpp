@@ -7,11 +7,11 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/cooling.hpp"
-#include "analysis/energy_equation.hpp"
-#include "analysis/enskog.hpp"
-#include "analysis/enskog_boltzmann.hpp"
-#include "analysis/moments.hpp"
+#include "analysis/observables/moments.hpp"
+#include "analysis/theory/cooling.hpp"
+#include "analysis/theory/energy_equation.hpp"
+#include "analysis/theory/enskog.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 #include "engine/initial.hpp"
 #include "engine/simulation.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/energy_equation.hpp"
-#include "analysis/enskog_boltzmann.hpp"
-#include "analysis/moments.hpp"
+#include "analysis/observables/moments.hpp"
+#include "analysis/theory/energy_equation.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 #include "engine/initial.hpp"
 #include "engine/simulation.hpp"
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/cooling.hpp"
-#include "analysis/enskog_boltzmann.hpp"
-#include "analysis/moments.hpp"
-#include "analysis/statistics.hpp"
+#include "analysis/observables/moments.hpp"
+#include "analysis/statistics/statistics.hpp"
+#include "analysis/theory/cooling.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 #include "engine/initial.hpp"
 #include "engine/simulation.hpp"
 
@@ -114,8 +114,8 @@ TEST_CASE("a heated gas reaches its a2 and temperature") {
     // 5 % for a theory linear in a_2.
     CHECK(std::abs(a2.mean - theory) < 4 * a2.standard_error + 0.05 * std::abs(theory));
     // What is given is lost: rate = 2 gamma_0 omega (3/2) T with Enskog's omega (physics as in
-    // analysis/enskog_boltzmann.hpp). Its rate is good to some 2 % here: velocities of partners are
-    // weakly correlated, T ~ rate^(2/3).
+    // analysis/theory/enskog_boltzmann.hpp). Its rate is good to some 2 % here: velocities of
+    // partners are weakly correlated, T ~ rate^(2/3).
     const double phi = 3.14159265358979 * n / 6;
     const double chi = (1 - phi / 2) / std::pow(1 - phi, 3);
     const double omega = 4 * std::sqrt(3.14159265358979) * n * chi;  // times sqrt(T)

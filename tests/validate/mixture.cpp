@@ -1,7 +1,7 @@
 // Mixtures of spheres and disks against V. Garzo and J. Dufty, Phys. Rev. E 60, 5706 (1999), and,
 // heated, A. Barrat and E. Trizac, Granular Matter 4, 57 (2002): species of different mass and size
 // have different temperatures, whose ratio stays.
-#include "analysis/mixture.hpp"
+#include "analysis/theory/mixture.hpp"
 
 #include <doctest/doctest.h>
 

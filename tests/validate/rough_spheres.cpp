@@ -1,12 +1,12 @@
 // Rough spheres against M. Huthmann and A. Zippelius, Phys. Rev. E 56, R6275 (1997): the ratio of
 // rotational to translational temperature that a cooling gas comes to, and the way to it.
-#include "analysis/rough_spheres.hpp"
+#include "analysis/theory/rough_spheres.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "analysis/moments.hpp"
+#include "analysis/observables/moments.hpp"
 #include "engine/initial.hpp"
 #include "engine/simulation.hpp"
 

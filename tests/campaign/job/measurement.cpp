@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/cooling.hpp"
-#include "analysis/moments.hpp"
+#include "analysis/observables/moments.hpp"
+#include "analysis/theory/cooling.hpp"
 #include "campaign/state/model.hpp"
 #include "engine/initial.hpp"
 

@@ -1,0 +1,35 @@
+// The gas seen as a fluid: density, flow velocity and temperature in cells.
+//
+//   n(r) = N_r / cell volume,   u(r) = < v >,   T_L(r) = (m/d) < (v - u)^2 > N_r / (N_r - 1)
+//
+// over the N_r particles of a cell; the last factor makes up for u being their own mean. <u^2>
+// still holds a self part of about d T / (m N_r).
+// R. Kawahara and H. Nakanishi, cond-mat/0309130 (who take 32^3 cells at N = 10^6).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "analysis/observables/mesh.hpp"
+
+namespace haff::analysis {
+
+// Cells of one gas, the last axis fastest.
+struct CoarseGrained {
+  Mesh mesh;
+  std::vector<double> density;  // n(r) [sigma^-d]
+  std::vector<double>
+      velocity;  // u(r), d components a cell, in the unit of v; NaN in an empty cell
+  std::vector<double>
+      temperature;  // T_L(r), in the unit of m v^2; NaN for fewer than two particles
+};
+
+// 32 cells along each axis, the paper's; halved until 4 particles are in a cell on average.
+int coarse_cells(double particles, int d = 3);
+
+// Of particles at positions in [0, L). Error: rounding. Throws std::invalid_argument unless there
+// are as many positions as velocities.
+CoarseGrained coarse_grained(std::span<const Vector> position, std::span<const Vector> velocity,
+                             double box, int cells, int d = 3);
+
+}  // namespace haff::analysis

@@ -1,0 +1,144 @@
+#include "analysis/observables/structure.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+#include "analysis/observables/fourier.hpp"
+
+namespace haff::analysis {
+namespace {
+
+constexpr int most_cells = 128;
+constexpr double smallest_box = 8;  // [sigma]: two shells
+
+// The two mesh points nearest to x along an axis, and the shares they get.
+struct Shares {
+  std::array<int, 2> point;
+  std::array<double, 2> share;
+};
+
+Shares shares(double x, const Mesh& mesh) {
+  const double place = x * (mesh.cells / mesh.box);
+  const int below = mesh.place(x);
+  const double above = place - below;
+  return {{below, below + 1 == mesh.cells ? 0 : below + 1}, {1 - above, above}};
+}
+
+void share_out(std::span<const Vector> position, const Mesh& mesh, std::span<double> field) {
+  std::fill(field.begin(), field.end(), 0.0);
+  for (const Vector& r : position) {
+    const Shares x = shares(r[0], mesh), y = shares(r[1], mesh);
+    const Shares z = mesh.d == 3 ? shares(r[2], mesh) : Shares{{0, 0}, {1, 0}};
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t j = 0; j < 2; ++j)
+        for (std::size_t k = 0; k < (mesh.d == 3 ? 2 : 1); ++k)
+          field[mesh.number({x.point[i], y.point[j], z.point[k]})] +=
+              x.share[i] * y.share[j] * z.share[k];
+  }
+}
+
+// What sharing out does along one axis to the power of a mode, and what is folded into the power
+// of uncorrelated particles.
+struct Distortion {
+  double power = 1;   // sinc^4
+  double folded = 1;  // 1 - (2/3) sin^2
+};
+
+Distortion distortion(int wave, int cells) {
+  if (wave == 0) return {};
+  const double x = std::numbers::pi * wave / cells;
+  const double sine = std::sin(x);
+  const double sinc = sine / x;
+  return {sinc * sinc * sinc * sinc, 1 - 2.0 / 3 * sine * sine};
+}
+
+// Sets of cells that grow together; the root of a set is its smallest cell.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t root(std::size_t cell) {
+    while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
+    return cell;
+  }
+  void join(std::size_t one, std::size_t other) {
+    const auto [low, high] = std::minmax({root(one), root(other)});
+    parent_[high] = low;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+}  // namespace
+
+StructureFactor structure_factor(std::span<const Vector> position, double box, int d) {
+  if (position.empty() || !(box >= smallest_box))
+    throw std::invalid_argument("a structure factor needs particles in a box of 8 sigma");
+  const Mesh mesh{.box = box, .cells = transform_cells(box, most_cells), .d = d};
+  Fourier fourier(mesh);
+  share_out(position, mesh, fourier.field());
+  fourier.forward();
+
+  std::vector<Distortion> axis;
+  for (int wave = 0; wave <= mesh.cells / 2; ++wave) axis.push_back(distortion(wave, mesh.cells));
+  const auto at = [&](int wave) { return axis[static_cast<std::size_t>(std::abs(wave))]; };
+
+  const auto shells = static_cast<std::size_t>(mesh.cells / 4);
+  std::vector<double> sum(shells), k_sum(shells), count(shells);
+  const auto modes = fourier.modes();
+  fourier.for_each_mode([&](std::size_t number, const std::array<int, 3>& k, int weight) {
+    const double length = std::sqrt(k[0] * k[0] + k[1] * k[1] + k[2] * k[2]);
+    const auto shell = static_cast<std::size_t>(std::lround(length));
+    if (shell < 1 || shell > shells) return;
+    const double power = at(k[0]).power * at(k[1]).power * at(k[2]).power;
+    const double folded = at(k[0]).folded * at(k[1]).folded * at(k[2]).folded;
+    const double raw = std::norm(modes[number]) / static_cast<double>(position.size());
+    sum[shell - 1] += weight * (1 + (raw - folded) / power);
+    k_sum[shell - 1] += weight * length;
+    count[shell - 1] += weight;
+  });
+
+  StructureFactor result;
+  for (std::size_t s = 0; s < shells; ++s) {
+    result.k.push_back(2 * std::numbers::pi / box * k_sum[s] / count[s]);
+    result.value.push_back(sum[s] / count[s]);
+  }
+  return result;
+}
+
+double largest_cluster(std::span<const Vector> position, double box, int d) {
+  if (position.empty()) throw std::invalid_argument("a cluster needs particles");
+  const auto particles = static_cast<double>(position.size());
+  const Mesh mesh{.box = box, .cells = cells_with(particles_in_cluster_cell, particles, d), .d = d};
+  std::vector<std::uint32_t> number(mesh.size());
+  for (const Vector& r : position) ++number[mesh.number(mesh.cell_of(r))];
+
+  const double mean = particles / static_cast<double>(mesh.size());
+  const auto is_dense = [&](std::size_t cell) { return number[cell] > cluster_density * mean; };
+  Sets sets(mesh.size());
+  std::array<int, 3> cell{};
+  for (cell[0] = 0; cell[0] < mesh.cells; ++cell[0])
+    for (cell[1] = 0; cell[1] < mesh.cells; ++cell[1])
+      for (cell[2] = 0; cell[2] < (d == 3 ? mesh.cells : 1); ++cell[2]) {
+        const std::size_t here = mesh.number(cell);
+        if (!is_dense(here)) continue;
+        for (std::size_t axis = 0; axis < static_cast<std::size_t>(d); ++axis) {
+          auto next = cell;
+          next[axis] = next[axis] + 1 == mesh.cells ? 0 : next[axis] + 1;
+          if (is_dense(mesh.number(next))) sets.join(here, mesh.number(next));
+        }
+      }
+
+  std::vector<std::uint64_t> held(mesh.size());
+  std::uint64_t most = 0;
+  for (std::size_t c = 0; c < mesh.size(); ++c)
+    if (is_dense(c)) most = std::max(most, held[sets.root(c)] += number[c]);
+  return static_cast<double>(most) / particles;
+}
+
+}  // namespace haff::analysis

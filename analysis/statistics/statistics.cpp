@@ -1,0 +1,97 @@
+#include "analysis/statistics/statistics.hpp"
+
+#include <gsl/gsl_rng.h>
+#include <gsl/gsl_statistics_double.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "analysis/gsl.hpp"
+
+namespace haff::analysis {
+namespace {
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Means of neighbouring pairs; an odd last value is left out.
+std::vector<double> halved(std::span<const double> values) {
+  std::vector<double> pairs(values.size() / 2);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    pairs[i] = 0.5 * (values[2 * i] + values[2 * i + 1]);
+  return pairs;
+}
+
+}  // namespace
+
+Estimate estimate(std::span<const double> values) {
+  if (values.empty()) throw std::invalid_argument("estimate of no values");
+  const double mean = mean_of(values);
+  const auto count = static_cast<double>(values.size());
+  double squares = 0;
+  for (const double x : values) squares += (x - mean) * (x - mean);
+  const double error = values.size() == 1 ? std::numeric_limits<double>::quiet_NaN()
+                                          : std::sqrt(squares / (count * (count - 1)));
+  return {.mean = mean, .standard_error = error, .count = values.size()};
+}
+
+BlockEstimate block_estimate(std::span<const double> series) {
+  if (series.size() < 2) throw std::invalid_argument("block average of fewer than two values");
+  constexpr std::size_t fewest_blocks = 8;  // below, the error's own error exceeds a quarter
+  const Estimate naive = estimate(series);
+  BlockEstimate best{.estimate = naive};
+  const auto long_enough = [&] {
+    const double inflation = best.estimate.standard_error / naive.standard_error;
+    const double size = static_cast<double>(series.size());
+    return std::pow(static_cast<double>(best.block_length), 3) > 2 * size * std::pow(inflation, 4);
+  };
+
+  std::vector<double> blocks(series.begin(), series.end());
+  while (naive.standard_error > 0 && blocks.size() >= 2 * fewest_blocks && !long_enough()) {
+    blocks = halved(blocks);
+    best.estimate = estimate(blocks);
+    best.block_length *= 2;
+  }
+  best.estimate.mean = naive.mean;
+  if (naive.standard_error > 0) {
+    best.correlation_time = 0.5 * std::pow(best.estimate.standard_error / naive.standard_error, 2);
+  }
+  return best;
+}
+
+Interval bootstrap_interval(std::span<const double> values, double confidence) {
+  if (values.empty()) throw std::invalid_argument("bootstrap of no values");
+  constexpr std::size_t resamples = 10'000;
+  constexpr unsigned long seed = 20030905;
+  gsl::report_errors();
+  const gsl::Owned<gsl_rng, gsl_rng_free> random(gsl_rng_alloc(gsl_rng_mt19937));
+  gsl_rng_set(random.get(), seed);
+
+  std::vector<double> means(resamples);
+  std::vector<double> drawn(values.size());
+  for (double& mean : means) {
+    for (double& each : drawn) each = values[gsl_rng_uniform_int(random.get(), values.size())];
+    mean = mean_of(drawn);
+  }
+  std::ranges::sort(means);
+  const auto quantile = [&](double share) {
+    return gsl_stats_quantile_from_sorted_data(means.data(), 1, means.size(), share);
+  };
+  return {.low = quantile((1 - confidence) / 2), .high = quantile((1 + confidence) / 2)};
+}
+
+std::vector<double> smoothed(std::span<const double> series, std::size_t window) {
+  if (window % 2 == 0) throw std::invalid_argument("moving average: the window must be odd");
+  std::vector<double> result(series.size());
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const std::size_t reach = std::min({window / 2, i, series.size() - 1 - i});
+    result[i] = mean_of(series.subspan(i - reach, 2 * reach + 1));
+  }
+  return result;
+}
+
+}  // namespace haff::analysis

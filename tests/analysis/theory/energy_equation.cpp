@@ -1,0 +1,126 @@
+// The energy equation against an independent solution (digits as given there), the paper's
+// crossover times, and its own limits; the fit of b against series made with a known b.
+#include "analysis/theory/energy_equation.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <vector>
+
+#include "analysis/theory/cooling.hpp"
+
+using namespace haff::analysis;
+using doctest::Approx;
+
+TEST_CASE("energy equation: ln E at n = 0.40 with b = 0.30") {
+  const auto strong = energy_equation({.e = 0.80, .n = 0.40}, std::vector{10.0, 20.0});
+  CHECK(std::log(strong[0].energy) == Approx(-1.1727).epsilon(5e-5));
+  CHECK(std::log(strong[1].energy) == Approx(-2.3197).epsilon(5e-5));
+  const auto weak = energy_equation({.e = 0.90, .n = 0.40}, std::vector{50.0, 100.0});
+  CHECK(std::log(weak[0].energy) == Approx(-3.0994).epsilon(5e-5));
+  CHECK(std::log(weak[1].energy) == Approx(-6.0741).epsilon(5e-5));
+}
+
+TEST_CASE("energy equation: tau_c at n = 0.40 with b = 0.30") {
+  // Independent solution: one digit after the point.
+  const std::map<double, double> known = {{0.80, 58.6}, {0.85, 82.5}, {0.90, 133.9}, {0.95, 303.9}};
+  for (const auto& [e, tau] : known) {
+    CHECK(std::abs(energy_equation_tau_c({.e = e, .n = 0.40}) - tau) < 0.06);
+  }
+}
+
+TEST_CASE("energy equation: tau_c is where the solution is twice Haff's") {
+  for (const int d : {2, 3}) {
+    const Gas gas{.e = 0.85, .n = 0.2, .d = d};
+    const double crossover = energy_equation_tau_c(gas);
+    const auto there = energy_equation(gas, std::vector{crossover}).front();
+    CHECK(there.energy == Approx(2 * there.haff).epsilon(1e-9));
+    CHECK(there.haff == Approx(haff_temperature(crossover, gas.e, d) * d / 2));
+  }
+}
+
+TEST_CASE("energy equation: gamma_ratio is the solution's own logarithmic slope") {
+  const Gas gas{.e = 0.85, .n = 0.4};
+  const double h = 1e-3;
+  const auto p = energy_equation(gas, std::vector{30 - h, 30.0, 30 + h});
+  const double slope = -std::log(p[2].energy / p[0].energy) / (2 * h) / (2 * gamma0(gas.e));
+  CHECK(p[1].gamma_ratio == Approx(slope).epsilon(1e-7));
+  // and half the trace of the correlations over E.
+  CHECK(p[1].gamma_ratio ==
+        Approx(1 - 0.5 * correlation_trace(gas, 30) / p[1].energy).epsilon(1e-8));
+}
+
+TEST_CASE("energy equation: it starts on Haff's law, and stays there without correlations") {
+  const Gas gas{.e = 0.8, .n = 0.4};
+  const auto start = energy_equation(gas, std::vector{0.0}).front();
+  CHECK(start.energy == 1);
+  CHECK(start.gamma_ratio == 1);
+  const auto far = energy_equation(gas, std::vector{50.0}, 1e-4).front();  // trace ~ b^3
+  CHECK(far.energy == Approx(far.haff).epsilon(1e-6));
+}
+
+TEST_CASE("energy equation: steps asked for do not change the solution") {
+  const Gas gas{.e = 0.9, .n = 0.4};
+  std::vector<double> fine;
+  for (int k = 0; k <= 1500; ++k) fine.push_back(0.1 * k);
+  CHECK(energy_equation(gas, fine).back().energy ==
+        Approx(energy_equation(gas, std::vector{150.0}).front().energy).epsilon(1e-9));
+}
+
+TEST_CASE("energy equation: an elastic gas and times out of order are refused") {
+  CHECK_THROWS_AS(energy_equation({.e = 1}, std::vector{1.0}), std::invalid_argument);
+  CHECK_THROWS_AS(energy_equation({.e = 0.8}, std::vector{2.0, 1.0}), std::invalid_argument);
+  CHECK_THROWS_AS(energy_equation({.e = 0.8}, std::vector{-1.0}), std::invalid_argument);
+}
+
+namespace {
+
+struct Series {
+  std::vector<double> tau, energy, error;
+};
+
+// E(tau) of the theory with b, times a known alternating disturbance of a relative size.
+Series series(const Gas& gas, double b, double disturbance) {
+  Series s;
+  for (int k = 0; k <= 60; ++k) s.tau.push_back(k);
+  for (const auto& p : energy_equation(gas, s.tau, b)) {
+    const double sign = s.energy.size() % 2 == 0 ? 1 : -1;
+    s.energy.push_back(p.energy * (1 + sign * disturbance));
+    s.error.push_back(p.energy * disturbance);
+  }
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("energy equation: a fit finds the b that made the series") {
+  const Gas gas{.e = 0.8, .n = 0.4};
+  for (const double b : {0.25, 0.30, 0.36}) {
+    const Series exact = series(gas, b, 0);
+    const CutoffFit fit = fit_cutoff(gas, exact.tau, exact.energy);
+    CHECK(fit.b == Approx(b).epsilon(1e-6));
+    CHECK(std::isnan(fit.chi_squared_per_sample));
+  }
+}
+
+TEST_CASE("energy equation: a fit with errors states its own") {
+  const Gas gas{.e = 0.8, .n = 0.4};
+  const Series noisy = series(gas, 0.30, 1e-3);
+  const CutoffFit fit = fit_cutoff(gas, noisy.tau, noisy.energy, noisy.error);
+  CHECK(std::abs(fit.b - 0.30) < 3 * fit.standard_error);
+  CHECK(fit.standard_error > 0);
+  CHECK(fit.standard_error < 1e-3);
+  // Every residual is one standard error by construction.
+  CHECK(fit.chi_squared_per_sample == Approx(1).epsilon(0.05));
+}
+
+TEST_CASE("energy equation: a fit to nothing is refused") {
+  const Gas gas{.e = 0.8, .n = 0.4};
+  CHECK_THROWS_AS(fit_cutoff(gas, std::vector{0.0, 1.0}, std::vector{1.0}), std::invalid_argument);
+  CHECK_THROWS_AS(fit_cutoff(gas, std::vector{0.0, 1.0}, std::vector{1.0, 0.9}),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(fit_cutoff(gas, std::vector{1.0, 2.0}, std::vector{1.0, -0.9}),
+                  std::invalid_argument);
+}

@@ -1,0 +1,110 @@
+// Transport coefficients and lengths of the elastic fluid against numbers from an independent
+// calculation at n = 0.40, good to the digits given, and against limits known exactly.
+#include "analysis/theory/enskog.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+#include <stdexcept>
+
+#include "analysis/theory/cooling.hpp"
+
+using namespace haff::analysis;
+using doctest::Approx;
+
+namespace {
+constexpr double n = 0.40;
+constexpr double digits = 5e-5;  // five significant digits, or nearly so
+}  // namespace
+
+TEST_CASE("enskog: the fluid at n = 0.40 has the contact value, rate and viscosities it should") {
+  CHECK(contact_value(n) == Approx(1.8120).epsilon(digits));
+  const Transport fluid = transport(n, 1);
+  CHECK(fluid.collision_rate == Approx(5.1386).epsilon(digits));
+  CHECK(fluid.viscosity / n == Approx(0.9809).epsilon(1e-4));  // four digits given
+  CHECK(fluid.bulk_viscosity == Approx(0.22838).epsilon(digits));
+}
+
+TEST_CASE("enskog: correlation lengths at n = 0.40") {
+  CHECK(lengths({.e = 0.80, .n = n}).transverse == Approx(1.7837).epsilon(digits));
+  CHECK(lengths({.e = 0.90, .n = n}).transverse == Approx(2.4552).epsilon(digits));
+  CHECK(lengths({.e = 0.80, .n = n}).longitudinal == Approx(6.0963).epsilon(digits));
+  CHECK(lengths({.e = 0.90, .n = n}).longitudinal == Approx(11.0947).epsilon(digits));
+}
+
+TEST_CASE("enskog: coefficients go with the square root of temperature, lengths not at all") {
+  for (const int d : {2, 3}) {
+    const Transport cold = transport(n, 0.25, d), warm = transport(n, 1, d);
+    CHECK(warm.collision_rate == Approx(2 * cold.collision_rate));
+    CHECK(warm.viscosity == Approx(2 * cold.viscosity));
+    CHECK(warm.bulk_viscosity == Approx(2 * cold.bulk_viscosity));
+    CHECK(warm.conductivity == Approx(2 * cold.conductivity));
+  }
+}
+
+TEST_CASE("enskog: the dilute gas is Boltzmann's") {
+  constexpr double dilute = 1e-6;
+  const double thermal = 1 / std::sqrt(std::numbers::pi);
+  const Transport spheres = transport(dilute, 1, 3), disks = transport(dilute, 1, 2);
+  // Density corrections are of order n; Sonine corrections are those of Chapman and Cowling.
+  CHECK(spheres.viscosity == Approx(1.016 * 5 / 16 * thermal).epsilon(1e-5));
+  CHECK(spheres.conductivity == Approx(1.025 * 75 / 64 * thermal).epsilon(1e-5));
+  CHECK(disks.viscosity == Approx(1.022 / 2 * thermal).epsilon(1e-5));
+  CHECK(disks.conductivity == Approx(1.029 * 2 * thermal).epsilon(1e-5));
+  // Prandtl number (specific heat at constant pressure)*eta/kappa: 2/3 in space and 1/2 in the
+  // plane to first order in Sonine polynomials, hence to 1 %.
+  CHECK(2.5 * spheres.viscosity / spheres.conductivity == Approx(2.0 / 3).epsilon(0.01));
+  CHECK(2 * disks.viscosity / disks.conductivity == Approx(0.5).epsilon(0.01));
+  CHECK(spheres.collision_rate == Approx(4 * std::sqrt(std::numbers::pi) * dilute).epsilon(1e-5));
+}
+
+TEST_CASE("enskog: collisional transfer has the form of the first Sonine approximation") {
+  // kappa = kappa_B [(1 + c phi chi)^2 / chi + ...], V. Garzo and J. W. Dufty, PRE 59, 5895 (1999):
+  // c = 3 2^(d-1) / (d + 2), and the rest is twice the heat capacity times the bulk viscosity,
+  // uncorrected by the Sonine factor. Constants of the table are rounded to four digits.
+  for (const int d : {2, 3}) {
+    const double phi = packing_fraction(n, d), chi = contact_value(n, d);
+    const Transport fluid = transport(n, 1, d);
+    const double boltzmann = (d == 2 ? 1.029 * 2 : 1.025 * 75 / 64) / std::sqrt(std::numbers::pi);
+    const double c = 3.0 * (d == 2 ? 2 : 4) / (d + 2);
+    const double kinetic = boltzmann * std::pow(1 + c * phi * chi, 2) / chi;
+    CHECK(fluid.conductivity == Approx(kinetic + d / 2.0 * fluid.bulk_viscosity).epsilon(2e-4));
+  }
+}
+
+TEST_CASE("enskog: g and the stiffness are derivatives of the equation of state") {
+  constexpr double h = 1e-6;  // central difference: error h^2 and rounding / h, both below 1e-9
+  for (const int d : {2, 3}) {
+    const EquationOfState here = equation_of_state(n, d);
+    const auto rate = [&](double at) { return std::log(transport(at, 1, d).collision_rate); };
+    CHECK(here.g == Approx(n * (rate(n + h) - rate(n - h)) / (2 * h)).epsilon(1e-8));
+    const auto p = [&](double at) { return at * equation_of_state(at, d).z; };
+    CHECK(here.stiffness == Approx((p(n + h) - p(n - h)) / (2 * h)).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("enskog: spheres obey the Carnahan-Starling equation of state") {
+  const double phi = packing_fraction(n);
+  const double z = (1 + phi + phi * phi - phi * phi * phi) / std::pow(1 - phi, 3);
+  CHECK(equation_of_state(n).z == Approx(z).epsilon(1e-14));
+}
+
+TEST_CASE("enskog: what has no answer is refused") {
+  CHECK_THROWS_AS(lengths({.e = 1, .n = n}), std::invalid_argument);
+  CHECK_THROWS_AS(contact_value(2.0), std::invalid_argument);
+  CHECK_THROWS_AS(contact_value(n, 4), std::invalid_argument);
+}
+
+TEST_CASE("enskog: disks have Henderson's pressure, z = (1 + phi^2/8) / (1 - phi)^2") {
+  for (const double density : {0.05, 0.4, 0.8}) {
+    const double phi = packing_fraction(density, 2);
+    CHECK(equation_of_state(density, 2).z ==
+          Approx((1 + phi * phi / 8) / ((1 - phi) * (1 - phi))).epsilon(1e-14));
+  }
+  // Its third virial coefficient, 3.125 phi^2, is exact to a thousandth: 16/3 - 4 sqrt(3)/pi
+  // (L. Tonks, Phys. Rev. 50, 955 (1936)).
+  const double exact = 16.0 / 3 - 4 * std::numbers::sqrt3 / std::numbers::pi;
+  CHECK(3.125 == Approx(exact).epsilon(1e-3));
+}
