@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "engine/simulation.hpp"
+#include "simulation.hpp"
 
 namespace haff::engine {
 

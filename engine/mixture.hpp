@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/state.hpp"
+#include "state.hpp"
 
 namespace haff::engine {
 

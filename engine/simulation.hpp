@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/state.hpp"
+#include "state.hpp"
 
 namespace haff::engine {
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "engine/state.hpp"
+#include "engine/support/arithmetic.hpp"
 
 namespace haff::engine {
 

@@ -19,9 +19,12 @@ template <std::size_t padded>
   for (std::size_t i = 0; i < padded; ++i) rank[i] = smaller[i];
 }
 
-// Integers only, so no bit depends on which of the two versions runs.
-[[gnu::target_clones("avx2", "default")]] void rank_keys(const Keys& key, std::size_t count,
-                                                         Keys& rank) {
+// Integers only, so no bit depends on which of the two versions runs. The loader chooses one, which
+// that of glibc can; of the processors, only x86 has a default that is older than its vectors.
+#if defined(__x86_64__) && defined(__GLIBC__)
+[[gnu::target_clones("avx2", "default")]]
+#endif
+void rank_keys(const Keys& key, std::size_t count, Keys& rank) {
   if (count <= most_ranked / 2)
     rank_all<most_ranked / 2>(key, count, rank);
   else

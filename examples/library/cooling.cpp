@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "engine/initial.hpp"
-#include "engine/simulation.hpp"
+#include <haff/engine/initial.hpp>
+#include <haff/engine/simulation.hpp>
 
 using namespace haff::engine;
 

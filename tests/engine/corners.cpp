@@ -153,20 +153,6 @@ TEST_CASE("corner: cells of a very dilute gas adapt") {
   CHECK(static_cast<double>(gas.memory()) / 2000 < 1000);
 }
 
-// Five minutes under sanitizers, on paths that the case above takes as well: left out there
-// (CMakePresets.json).
-TEST_CASE("corner: the rate of a very dilute gas") {
-  constexpr double n = 1e-4;
-  constexpr std::uint32_t particles = 2000;
-  Simulation gas({.restitution = 1}, engine::initial_state(n, particles, 1));
-  gas.run_to(engine::collisions_at(50, particles));
-  const double before = gas.time();
-  gas.run_to(engine::collisions_at(100, particles));
-  // Boltzmann's rate 4 sqrt(pi T) n; 5e4 collisions: 0.45 % of noise, so four standard errors.
-  const double rate = 50 / (gas.time() - before);
-  CHECK(rate / (4 * std::sqrt(std::numbers::pi * 2 / 3) * n) == doctest::Approx(1).epsilon(0.018));
-}
-
 TEST_CASE("corner: too small a box is refused with the smallest") {
   State state = engine::initial_state(0.2, 2, 1);
   state.box = 1.9;

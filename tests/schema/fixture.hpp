@@ -33,7 +33,7 @@ inline std::vector<Planned> plan(const std::vector<Job>& jobs, double tau_max = 
 }
 
 inline const Owner me{.host = "here", .boot_id = "this boot", .pid = 1, .started = 10};
-inline const Owner other{.host = "here", .boot_id = "this boot", .pid = 2, .started = 20};
+inline const Owner another{.host = "here", .boot_id = "this boot", .pid = 2, .started = 20};
 
 inline std::vector<std::byte> bytes(std::size_t size, unsigned start = 0) {
   std::vector<std::byte> made(size);

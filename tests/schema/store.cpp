@@ -248,14 +248,14 @@ TEST_CASE("a claim tells where the job stands and marks who holds it") {
   jobs[1].checkpoint_every = 20;
   store.add(jobs);
   equilibrate(store);
-  const auto claim = store.claim(other, "version 2");
+  const auto claim = store.claim(another, "version 2");
   REQUIRE(claim);
   CHECK(identity(claim->job) == identity(cooling()));
   CHECK(claim->tau_max == 90);
   CHECK(claim->checkpoint_every == 20);
   const auto running = store.running();
   REQUIRE(running.size() == 1);
-  CHECK(running[0].owner == other);
+  CHECK(running[0].owner == another);
   CHECK(running[0].lease.token == claim->lease.token);
   CHECK(running[0].tau_max == 90);
   CHECK_FALSE(running[0].renewed.empty());
@@ -294,7 +294,7 @@ TEST_CASE("many connections never claim a job twice") {
 TEST_CASE("a writer whose lease has passed to another is refused and changes nothing") {
   Working old;
   REQUIRE(old.store.reclaim(old.claim.lease));
-  const auto next = old.store.claim(other, "test");
+  const auto next = old.store.claim(another, "test");
   REQUIRE(next);
   CHECK(next->lease.job_id == old.claim.lease.job_id);
 

@@ -65,7 +65,7 @@ TEST_CASE("accuracy: Student's quantiles as in tables") {
 }
 
 TEST_CASE("accuracy: intervals of few realizations cover the truth as often as they say") {
-  for (const std::size_t realizations : {2, 3, 5, 20}) {
+  for (const std::size_t realizations : {2u, 3u, 5u, 20u}) {
     Normal normal{realizations};
     int covered = 0;
     for (int trial = 0; trial < trials; ++trial) {
@@ -139,9 +139,9 @@ TEST_CASE("accuracy: the number of realizations a standard error takes") {
 }
 
 TEST_CASE("accuracy: realizations at most double before one looks again") {
-  const auto of = [](double deviation, std::size_t count) {
+  const auto of = [](double spread, std::size_t count) {
     return Estimate{.mean = 0,
-                    .standard_error = deviation / std::sqrt(static_cast<double>(count)),
+                    .standard_error = spread / std::sqrt(static_cast<double>(count)),
                     .count = count};
   };
   CHECK(next_realizations(of(2, 5), 0.5) == 10);  // of the 16 they ask for
@@ -202,11 +202,11 @@ void check_stopping(std::size_t pilots, std::size_t affordable) {
 
 TEST_CASE("accuracy: stopping at a target biases neither the mean nor the coverage") {
   // 16 values on average; 5 to more than 40.
-  for (const std::size_t pilots : {5, 10}) check_stopping(pilots, 1000);
+  for (const std::size_t pilots : {5u, 10u}) check_stopping(pilots, 1000);
 }
 
 TEST_CASE("accuracy: of skewed values the bias is a fraction of a standard error") {
-  for (const std::size_t pilots : {5, 10}) {
+  for (const std::size_t pilots : {5u, 10u}) {
     const Stopping result = stopping(lognormal_values, pilots, 1000);
     // Some -0.18 and -0.11, each known to 0.02; 94 % to 0.4 %.
     const double bias = result.bias.mean / 0.5;

@@ -113,7 +113,7 @@ TEST_CASE("plot: the range of y takes error bars in") {
 }
 
 TEST_CASE("plot: no two curves share a colour") {
-  for (const std::size_t of : {1, 2, 4, 6, 7, 9, 20}) {
+  for (const std::size_t of : {1u, 2u, 4u, 6u, 7u, 9u, 20u}) {
     std::set<std::string> colours;
     for (std::size_t place = 0; place < of; ++place) colours.insert(colour(place, of));
     CHECK(colours.size() == of);
