@@ -1,7 +1,6 @@
 // A gas of 4000 inelastic spheres cools: its temperature beside Haff's law.
 #include <cmath>
 #include <cstdio>
-
 #include <haff/engine/initial.hpp>
 #include <haff/engine/simulation.hpp>
 
