@@ -24,6 +24,9 @@ namespace haff::analysis {
 
 inline constexpr double usual_confidence = 0.95;
 
+// That of one standard deviation to either side of a normal mean: of error bars.
+inline constexpr double bar_confidence = 0.682689;
+
 // Standard errors that an interval of this confidence extends to either side: 12.7, 2.78, 1.96 for
 // 0.95 and 1, 4, many degrees of freedom. Throws std::invalid_argument for none.
 double student_t(std::size_t degrees, double confidence = usual_confidence);

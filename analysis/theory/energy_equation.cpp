@@ -11,6 +11,7 @@
 
 #include "analysis/gsl.hpp"
 #include "analysis/theory/cooling.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 
 namespace haff::analysis {
 namespace {
@@ -18,7 +19,8 @@ namespace {
 // F and I of the equation, carried forward on s = 2 gamma_0 tau by GSL's Prince-Dormand stepper.
 class Solution {
  public:
-  Solution(const Gas& gas, double b) : growth_(gas, b), decay_(2 * gamma0(gas.e, gas.d)) {
+  Solution(const Gas& gas, double b, Velocities velocities)
+      : gas_(gas), velocities_(velocities), growth_(gas, b), decay_(2 * gamma0(gas.e, gas.d)) {
     gsl::report_errors();
     system_ = {derivative, nullptr, state_.size(), this};
     driver_.reset(gsl_odeiv2_driver_alloc_y_new(&system_, gsl_odeiv2_step_rk8pd, first_step,
@@ -37,7 +39,7 @@ class Solution {
 
   double s() const { return s_; }
   double energy_over_haff() const { return state_[0]; }
-  double slope() const { return growth_.strength / growth_.d * state_[1]; }  // dF/ds
+  double slope() const { return slope(s_, state_.data()); }  // dF/ds
 
   EnergyPoint point() const {
     const double haff = std::exp(-s_);
@@ -52,13 +54,25 @@ class Solution {
   static constexpr double first_step = 1e-3;  // in s; the driver adapts it
   static constexpr double tolerance = 1e-11;  // per step, absolute and relative
 
+  double loss_factor(double s) const {
+    if (velocities_ == Velocities::gaussian) return 1;
+    return boltzmann_gamma_ratio(boltzmann_a2(s / decay_, gas_.e, gas_.d));
+  }
+
+  double slope(double s, const double y[]) const {
+    const double f = loss_factor(s);
+    return (1 - f) * y[0] + f * growth_.strength / growth_.d * y[1];
+  }
+
   static int derivative(double s, const double y[], double dydt[], void* self) {
-    const TraceGrowth& growth = static_cast<const Solution*>(self)->growth_;
-    dydt[0] = growth.strength / growth.d * y[1];
-    dydt[1] = growth(s);
+    const auto& solution = *static_cast<const Solution*>(self);
+    dydt[0] = solution.slope(s, y);
+    dydt[1] = solution.growth_(s);
     return GSL_SUCCESS;
   }
 
+  Gas gas_;
+  Velocities velocities_;
   TraceGrowth growth_;
   double decay_;
   gsl_odeiv2_system system_{};
@@ -69,8 +83,9 @@ class Solution {
 
 }  // namespace
 
-std::vector<EnergyPoint> energy_equation(const Gas& gas, std::span<const double> tau, double b) {
-  Solution solution(gas, b);
+std::vector<EnergyPoint> energy_equation(const Gas& gas, std::span<const double> tau, double b,
+                                         Velocities velocities) {
+  Solution solution(gas, b, velocities);
   std::vector<EnergyPoint> points;
   points.reserve(tau.size());
   double last = 0;
@@ -83,16 +98,16 @@ std::vector<EnergyPoint> energy_equation(const Gas& gas, std::span<const double>
   return points;
 }
 
-double energy_equation_tau_c(const Gas& gas, double b) {
+double energy_equation_tau_c(const Gas& gas, double b, Velocities velocities) {
   constexpr double stride = 0.25;      // in s; F grows by a factor of e^stride at most
   constexpr double converged = 1e-11;  // relative
-  Solution solution(gas, b);
+  Solution solution(gas, b, velocities);
   while (solution.energy_over_haff() < 2) solution.advance(solution.s() + stride);
 
   // F is convex, so Newton's steps from past the crossing come down to it from above.
   double s = solution.s();
   for (int step = 0; step < 50; ++step) {
-    Solution here(gas, b);
+    Solution here(gas, b, velocities);
     here.advance(s);
     const double change = (here.energy_over_haff() - 2) / here.slope();
     s -= change;
@@ -106,15 +121,17 @@ namespace {
 // A measured ln E(tau), tau > 0, with its weights.
 struct Measured {
   Gas gas;
+  Velocities velocities = Velocities::gaussian;
   std::vector<double> tau, log_energy, log_error;
 };
 
 Measured measured(const Gas& gas, std::span<const double> tau, std::span<const double> energy,
-                  std::span<const double> energy_error) {
+                  std::span<const double> energy_error, Velocities velocities) {
   if (tau.size() != energy.size() || (!energy_error.empty() && energy_error.size() != tau.size())) {
     throw std::invalid_argument("fit of b: as many energies (and errors) as times are needed");
   }
-  Measured result{.gas = gas, .tau = {}, .log_energy = {}, .log_error = {}};
+  Measured result{
+      .gas = gas, .velocities = velocities, .tau = {}, .log_energy = {}, .log_error = {}};
   for (std::size_t i = 0; i < tau.size(); ++i) {
     if (tau[i] == 0) continue;  // E(0) = 1 by preparation: it says nothing about b
     const double error = energy_error.empty() ? 1 : energy_error[i] / energy[i];
@@ -134,7 +151,8 @@ Measured measured(const Gas& gas, std::span<const double> tau, std::span<const d
 // Residuals in standard errors; the parameter is ln b, which keeps b positive.
 int residuals(const gsl_vector* log_b, void* data, gsl_vector* result) {
   const auto& series = *static_cast<const Measured*>(data);
-  const auto theory = energy_equation(series.gas, series.tau, std::exp(gsl_vector_get(log_b, 0)));
+  const auto theory = energy_equation(series.gas, series.tau, std::exp(gsl_vector_get(log_b, 0)),
+                                      series.velocities);
   for (std::size_t i = 0; i < theory.size(); ++i) {
     const double difference = std::log(theory[i].energy) - series.log_energy[i];
     gsl_vector_set(result, i, difference / series.log_error[i]);
@@ -145,10 +163,10 @@ int residuals(const gsl_vector* log_b, void* data, gsl_vector* result) {
 }  // namespace
 
 CutoffFit fit_cutoff(const Gas& gas, std::span<const double> tau, std::span<const double> energy,
-                     std::span<const double> energy_error) {
+                     std::span<const double> energy_error, Velocities velocities) {
   constexpr std::size_t most_iterations = 50;
   constexpr double step_tolerance = 1e-8, gradient_tolerance = 1e-10;
-  Measured series = measured(gas, tau, energy, energy_error);
+  Measured series = measured(gas, tau, energy, energy_error, velocities);
   const std::size_t samples = series.tau.size();
   gsl::report_errors();
 

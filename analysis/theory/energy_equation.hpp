@@ -1,14 +1,16 @@
 // Energy decay with velocity correlations, from Haff's law to the end of the homogeneous stage:
 //
-//   dE/dtau = -2 gamma_0 (E - (m/2) Tr G^+(0, tau)),   E(0) = 1
-//   gamma/gamma_0 = 1 - (m/2) Tr G^+ / E
+//   dE/dtau = -2 gamma_0 f (E - (m/2) Tr G^+(0, tau)),   E(0) = 1
+//   gamma/gamma_0 = f (1 - (m/2) Tr G^+ / E)
 //
-// R. Kawahara and H. Nakanishi, cond-mat/0309130. The one number of the theory, b, sets the
-// cutoff of Tr G^+ (see correlations.hpp).
+// R. Kawahara and H. Nakanishi, cond-mat/0309130, with f = 1: velocities in a small volume are
+// Gaussian. They are not quite, and in a dilute gas this is most of what makes gamma differ from
+// gamma_0: f = gamma/gamma_0 of Enskog-Boltzmann theory at this tau (enskog_boltzmann.hpp). The one
+// number of the theory, b, sets the cutoff of Tr G^+ (see correlations.hpp).
 //
 // Solved on s = 2 gamma_0 tau for F = E / E_Haff, which does not underflow: with
 // T_Haff = (2/d) E_Haff,
-//   dF/ds = (strength / d) I,   dI/ds = trace_density(s),   F(0) = 1, I(0) = 0.
+//   dF/ds = (1 - f) F + f (strength / d) I,   dI/ds = trace_density(s),   F(0) = 1, I(0) = 0.
 #pragma once
 
 #include <span>
@@ -18,6 +20,9 @@
 #include "analysis/theory/gas.hpp"
 
 namespace haff::analysis {
+
+// What f is: 1, or that of Enskog-Boltzmann theory.
+enum class Velocities { gaussian, enskog_boltzmann };
 
 struct EnergyPoint {
   double tau = 0;
@@ -29,10 +34,12 @@ struct EnergyPoint {
 // The solution at increasing tau >= 0. Relative error below 1e-9. Throws std::invalid_argument
 // at e = 1 and for tau that are negative or out of order.
 std::vector<EnergyPoint> energy_equation(const Gas& gas, std::span<const double> tau,
-                                         double b = cutoff_b);
+                                         double b = cutoff_b,
+                                         Velocities velocities = Velocities::gaussian);
 
 // tau_c of the theory: where E = 2 E_Haff. Same errors.
-double energy_equation_tau_c(const Gas& gas, double b = cutoff_b);
+double energy_equation_tau_c(const Gas& gas, double b = cutoff_b,
+                             Velocities velocities = Velocities::gaussian);
 
 // The cutoff number b that fits a measured E(tau) best, weighing residuals of ln E by
 // energy_error / energy (all alike where energy_error is empty).
@@ -47,6 +54,7 @@ struct CutoffFit {
 // Throws std::invalid_argument for lengths that differ or fewer than two samples with tau > 0,
 // std::runtime_error if GSL's least squares do not converge.
 CutoffFit fit_cutoff(const Gas& gas, std::span<const double> tau, std::span<const double> energy,
-                     std::span<const double> energy_error = {});
+                     std::span<const double> energy_error = {},
+                     Velocities velocities = Velocities::gaussian);
 
 }  // namespace haff::analysis

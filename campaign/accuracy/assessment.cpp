@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analysis/statistics/interpolation.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "analysis/theory/energy_equation.hpp"
 #include "campaign/base/job_text.hpp"
@@ -274,8 +275,10 @@ void add_mesh_shift(Quantity quantity, const PilotSeries& series, std::vector<Sh
   std::vector<double> values, differences;
   for (const Pilot& pilot : series.pilots) {
     if (!pilot.mesh || pilot.mesh->usual.tau != quantity.to) continue;
-    const auto usual = value_at(pilot.mesh->usual, quantity.r),
-               wide = value_at(pilot.mesh->wide, quantity.r);
+    const auto at_r = [&](const schema::Profile& profile) {
+      return analysis::interpolated(profile.x, profile.value, quantity.r);
+    };
+    const auto usual = at_r(pilot.mesh->usual), wide = at_r(pilot.mesh->wide);
     if (!usual || !wide) continue;
     values.push_back(*usual);
     differences.push_back(*wide - *usual);

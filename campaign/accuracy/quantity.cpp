@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "analysis/statistics/accuracy.hpp"
+#include "analysis/statistics/interpolation.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "analysis/theory/cooling.hpp"
 
@@ -76,20 +77,15 @@ std::optional<double> decay_rate(const Quantity& quantity, const schema::Job& jo
                                job.d);
 }
 
-// y at x, on the straight line between the points beside it.
-double between(double x, double x0, double y0, double x1, double y1) {
-  return x1 == x0 ? y0 : y0 + (y1 - y0) * (x - x0) / (x1 - x0);
-}
-
 std::optional<double> ln_temperature(double tau, int d, const Samples& samples) {
   if (!reaches(samples, tau)) return std::nullopt;
-  const auto after = std::ranges::find_if(
-      samples, [&](const schema::Sample& sample) { return sample.tau >= tau - rounding; });
-  const auto before = after == samples.begin() ? after : after - 1;
-  if (!before->temperature || !after->temperature) return std::nullopt;
-  return between(tau, before->tau, std::log(*before->temperature), after->tau,
-                 std::log(*after->temperature)) -
-         std::log(analysis::initial_temperature(d));
+  std::vector<double> at, logarithm;
+  for (const schema::Sample& sample : samples) {
+    if (!sample.temperature) return std::nullopt;
+    at.push_back(sample.tau);
+    logarithm.push_back(std::log(*sample.temperature / analysis::initial_temperature(d)));
+  }
+  return analysis::interpolated(at, logarithm, std::min(tau, at.back()));
 }
 
 std::optional<double> crossover(const schema::Job& job, const Pilot& pilot, std::size_t every) {
@@ -106,7 +102,7 @@ std::optional<double> crossover(const schema::Job& job, const Pilot& pilot, std:
 std::optional<double> correlation(const Quantity& quantity, const Pilot& pilot) {
   for (const schema::Profile& profile : pilot.correlations) {
     if (std::abs(profile.tau - quantity.to) > rounding) continue;
-    return value_at(profile, quantity.r);
+    return analysis::interpolated(profile.x, profile.value, quantity.r);
   }
   return std::nullopt;
 }
@@ -180,12 +176,6 @@ std::string describe(const Quantity& quantity) {
   }
 }
 
-std::string value_text(double value, double error) {
-  if (!std::isfinite(error) || error <= 0) return fmt::format("{:.5g}", value);
-  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
-  return fmt::format("{:.{}f}", value, digits);
-}
-
 Quantity middle_half(const Quantity& quantity) {
   Quantity half = quantity;
   const double quarter = (quantity.to - quantity.from) / 4;
@@ -203,13 +193,6 @@ std::optional<double> value_of(const Quantity& quantity, const schema::Job& job,
   if (quantity.measure == Measure::ln_temperature)
     return ln_temperature(quantity.to, job.d, samples);
   return mean_laguerre(quantity, samples);
-}
-
-std::optional<double> value_at(const schema::Profile& profile, double x) {
-  const auto after = std::ranges::lower_bound(profile.x, x);
-  if (after == profile.x.begin() || after == profile.x.end()) return std::nullopt;
-  const auto k = static_cast<std::size_t>(after - profile.x.begin());
-  return between(x, profile.x[k - 1], profile.value[k - 1], profile.x[k], profile.value[k]);
 }
 
 std::optional<OneRunError> error_within(const Quantity& quantity, const schema::Job& job,

@@ -29,17 +29,12 @@ bool is_laguerre(Measure measure);  // a2, a3, a4
 std::string name(Measure measure);  // a word for tables: "ln_temperature"
 std::optional<Measure> measure_named(const std::string& name);
 std::string describe(const Quantity& quantity);  // "a2, tau 5 to 15"
-// A number with the digits that its error leaves it, two of those that are uncertain.
-std::string value_text(double value, double error);
 Quantity middle_half(const Quantity& quantity);  // of its window
 
 // Its value in one realization, of which only every so manieth sample is looked at; nothing if the
 // run did not reach or measure it.
 std::optional<double> value_of(const Quantity& quantity, const schema::Job& job, const Pilot& pilot,
                                std::size_t every = 1);
-
-// A profile at x, on the straight line between the points beside it; nothing beyond its ends.
-std::optional<double> value_at(const schema::Profile& profile, double x);
 
 // The error of that value from this realization alone. A window of some correlation times cannot
 // tell its own error: blocks over all the run from the window on tell the correlation time t, and

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace haff::campaign {
 namespace {
@@ -12,10 +14,29 @@ std::string two_decimals(double value) {
   return more.size() > two.size() ? more : two;
 }
 
+bool has_size(double error) {
+  return std::isfinite(error) && error > 0;
+}
+
+int decimals(double error) {
+  constexpr int most = 12;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, most);
+}
+
 }  // namespace
 
 std::string number_text(double value) {
   return fmt::format("{}", value);
+}
+
+std::string value_text(double value, double error) {
+  if (!has_size(error)) return fmt::format("{:.5g}", value);
+  return fmt::format("{:.{}f}", value, decimals(error));
+}
+
+std::string value_with_error(double value, double error) {
+  if (!has_size(error)) return value_text(value, error);
+  return fmt::format("{} ± {:.{}f}", value_text(value, error), error, decimals(error));
 }
 
 std::string count_text(long long count) {

@@ -8,6 +8,13 @@ namespace haff::campaign {
 // The shortest text that reads back as the same number.
 std::string number_text(double value);
 
+// A value with the digits that its error leaves it, two of those that are uncertain: 57.49. Five
+// digits where the error is not known.
+std::string value_text(double value, double error);
+
+// The same with the error: 57.49 ± 1.14.
+std::string value_with_error(double value, double error);
+
 // Digits in groups of three: 32 000.
 std::string count_text(long long count);
 

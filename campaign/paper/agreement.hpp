@@ -1,5 +1,5 @@
 // What the simulations say beside what is published and what theory gives: each claim with its
-// number, its error, what it is compared with and the tolerance it is held to.
+// number, its 95 % interval, what it is compared with and what it is held to (judgement.hpp).
 //
 // Claims: R. Kawahara and H. Nakanishi, cond-mat/0309130. Theory: the analysis room.
 #pragma once
@@ -21,9 +21,9 @@ struct Comparison {
   std::string quantity;  // in words
   std::optional<double> e = {}, n = {};
   double value = none;
-  double error = none;      // standard error of value
-  double reference = none;  // what value is compared with
-  std::string source = {};  // of reference
+  double half_interval = none;  // of 95 %, of the mean over realizations by Student's t
+  double reference = none;      // what value is compared with
+  std::string source = {};      // of reference
   std::string criterion = {};
   std::optional<bool> holds = {};  // nothing: said, but not judged
   std::string note = {};

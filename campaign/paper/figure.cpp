@@ -32,6 +32,13 @@ std::string realizations_text(const MeanSeries& series) {
   return rest.empty() ? text : text + " (" + rest + ")";
 }
 
+// Samples of one run remember each other, and each seed's equilibrated state serves all e.
+std::string dependence_note(const std::vector<MeanSeries>& series) {
+  const bool several_e = series.front().e != series.back().e;
+  return several_e ? " Neighbouring τ are correlated; all e start from the same states."
+                   : " Neighbouring τ are correlated.";
+}
+
 }  // namespace
 
 std::string versions_text(const std::vector<MeanSeries>& series) {
@@ -63,7 +70,14 @@ std::string provenance(const std::vector<MeanSeries>& series) {
 std::string error_note(const std::vector<MeanSeries>& series) {
   const bool any =
       std::ranges::any_of(series, [](const MeanSeries& s) { return s.most_realizations() > 1; });
-  return any ? " Bars and bands: standard error of the mean." : "";
+  if (!any) return "";
+  return " Bars and bands: 68 % intervals of the mean (Student's t)." + dependence_note(series);
+}
+
+std::string coefficient_error_note(const std::vector<MeanSeries>& series) {
+  return " Bars and bands: 68 % intervals of the mean (Student's t), at least those of Gaussian "
+         "velocities." +
+         dependence_note(series);
 }
 
 double homogeneous_stage(const MeanSeries& series) {

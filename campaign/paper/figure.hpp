@@ -32,8 +32,12 @@ std::string provenance(const std::vector<MeanSeries>& series);
 // The programs that made them, for captions: " haff 0.1.0 (1a2b3c4d)."; nothing if unknown.
 std::string versions_text(const std::vector<MeanSeries>& series);
 
-// Said of error bars or bands, if any series has them.
+// What captions say of error bars and bands, if any series has them, and of what they do not say:
+// curves are not independent of each other, nor their points.
 std::string error_note(const std::vector<MeanSeries>& series);
+
+// Likewise of Laguerre coefficients, whose errors are never less than those of Gaussian velocities.
+std::string coefficient_error_note(const std::vector<MeanSeries>& series);
 
 // tau up to which a figure of the homogeneous stage shows a series: somewhat beyond tau_c.
 double homogeneous_stage(const MeanSeries& series);

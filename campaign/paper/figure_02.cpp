@@ -55,7 +55,9 @@ std::string note(const std::vector<MeanTauC>& measured) {
   }
   const bool errors =
       std::ranges::any_of(measured, [](const MeanTauC& t) { return std::isfinite(t.error); });
-  return text + (errors ? ". Bars: standard error of the mean." : ".");
+  return text + (errors ? ". Bars: 68 % intervals of the mean (Student's t). All e start from the "
+                          "same states."
+                        : ".");
 }
 
 }  // namespace

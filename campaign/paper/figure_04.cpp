@@ -47,7 +47,8 @@ std::optional<Plot> figure_04(const Averages& averages) {
         fmt::format("set label '{{/:Italic τ}}_c' at first {}, graph 0.94 offset character 0.6, 0",
                     each.tau_c));
   }
-  return Plot{.panels = {panel}, .caption = provenance({series}) + error_note({series})};
+  return Plot{.panels = {panel},
+              .caption = provenance({series}) + coefficient_error_note({series})};
 }
 
 }  // namespace haff::campaign

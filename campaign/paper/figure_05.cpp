@@ -14,8 +14,10 @@ namespace {
 constexpr double short_times = 15;  // the inset's end: the theory is on its plateau by then
 
 Curve theory(double e, double end) {
-  Curve curve{
-      .name = "Enskog-Boltzmann", .legend = "Enskog–Boltzmann", .source = Source::theory, .e = e};
+  Curve curve{.name = "Enskog-Boltzmann",
+              .legend = "Enskog–Boltzmann, first order in {/:Italic a}_2",
+              .source = Source::theory,
+              .e = e};
   curve.width = 2.2;
   constexpr int points = 150;
   for (int i = 0; i <= points; ++i) {
@@ -68,7 +70,8 @@ std::optional<Plot> figure_05(const Averages& averages) {
   inset.y.tics = fmt::format("{:g}", round_step(inner.width() / 4));
   inset.y.low = inner.low - 0.1 * inner.width();
   inset.y.high = inner.high + 0.1 * inner.width();
-  return Plot{.panels = {whole, inset}, .caption = provenance({series}) + error_note({series})};
+  return Plot{.panels = {whole, inset},
+              .caption = provenance({series}) + coefficient_error_note({series})};
 }
 
 }  // namespace haff::campaign

@@ -15,7 +15,7 @@ constexpr double short_times = 30;
 
 Curve theory(double end) {
   Curve curve{.name = "Enskog-Boltzmann",
-              .legend = "Enskog–Boltzmann",
+              .legend = "Enskog–Boltzmann, first order in {/:Italic a}_2",
               .source = Source::theory,
               .e = restitution};
   curve.width = 2.2;
@@ -57,7 +57,7 @@ std::optional<Plot> figure_06(const Averages& averages) {
   const Range range = y_range(panel.curves);
   panel.y.low = range.low - 0.05 * range.width();
   panel.y.high = range.high + 0.3 * range.width();
-  return Plot{.panels = {panel}, .caption = provenance(chosen) + error_note(chosen)};
+  return Plot{.panels = {panel}, .caption = provenance(chosen) + coefficient_error_note(chosen)};
 }
 
 }  // namespace haff::campaign

@@ -23,9 +23,18 @@ std::vector<double> times(double end) {
   return tau;
 }
 
-Curve energy_equation(double n, double end) {
-  Curve curve{.name = "energy equation", .source = Source::theory, .e = restitution, .n = n};
-  for (const auto& point : analysis::energy_equation({.e = restitution, .n = n}, times(end))) {
+// With the loss of Enskog-Boltzmann theory as a line, without it, as the paper has it, dotted.
+Curve energy_equation(double n, double end, analysis::Velocities velocities) {
+  const bool gaussian = velocities == analysis::Velocities::gaussian;
+  Curve curve{.name = gaussian ? "energy equation, Gaussian velocities"
+                               : "energy equation, Enskog-Boltzmann velocities",
+              .source = Source::theory,
+              .e = restitution,
+              .n = n,
+              .look = gaussian ? Look::dotted : Look::line};
+  if (gaussian) curve.width = 1.2;
+  for (const auto& point : analysis::energy_equation({.e = restitution, .n = n}, times(end),
+                                                     analysis::cutoff_b, velocities)) {
     curve.x.push_back(point.tau);
     curve.y.push_back(point.gamma_ratio);
   }
@@ -70,13 +79,18 @@ std::optional<Plot> figure_12(const Averages& averages) {
     curve = until(end, std::move(curve));
     curve.look = Look::symbols;
     curve.colour = shade(panel.curves.size(), chosen.size());
-    theories.push_back(energy_equation(series.n, end));
-    theories.back().colour = curve.colour;
+    for (const auto velocities :
+         {analysis::Velocities::enskog_boltzmann, analysis::Velocities::gaussian}) {
+      theories.push_back(energy_equation(series.n, end, velocities));
+      theories.back().colour = curve.colour;
+    }
     panel.curves.push_back(std::move(curve));
   }
   panel.curves.insert(panel.curves.end(), theories.begin(), theories.end());
   panel.curves.push_back(
       {.legend = fmt::format("energy equation, {{/:Italic b}} = {:.2f}", analysis::cutoff_b)});
+  panel.curves.push_back(
+      {.legend = "the same, Gaussian velocities", .look = Look::dotted, .width = 1.2});
   panel.curves.push_back(boltzmann(end));
   const Range range = y_range(panel.curves);
   panel.y.low = range.low - 0.04 * range.width();

@@ -70,7 +70,7 @@ Curve measured(const MeanSeries& series, RunValues values, bool rate, double end
 
 Curve theory(double e, double end, bool rate) {
   Curve curve{.name = "Enskog-Boltzmann",
-              .legend = "Enskog–Boltzmann",
+              .legend = "Enskog–Boltzmann, first order",
               .source = Source::theory,
               .e = e,
               .look = Look::dashed};
@@ -141,7 +141,7 @@ std::optional<Plot> figure_14(const Averages& averages) {
   return Plot{.panels = {a2, rate},
               .caption = fmt::format("{} From τ = {:g} on, means over Δτ = {:g}.{}",
                                      provenance({*gases.front()}), settled, interval,
-                                     error_note({*gases.front()})),
+                                     coefficient_error_note({*gases.front()})),
               .width = 960};
 }
 

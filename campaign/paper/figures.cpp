@@ -62,7 +62,9 @@ constexpr std::array<Figure, 14> figures = {{
     {4, "Laguerre coefficients a₂, a₃, a₄", figure_04, one_restitution,
      "|a₂| > |a₃| > |a₄|; all return towards zero before τ_c (mean of 3)."},
     {5, "a₂ against Enskog–Boltzmann theory", figure_05, one_restitution,
-     "a₂ follows the theory until close to its plateau, then turns back (mean of 3, inset of 6)."},
+     "a₂ follows the theory until close to the value that this settles to, then turns back (mean "
+     "of "
+     "3, inset of 6)."},
     {6, "a₂ at short times for several densities", figure_06, several_densities,
      "the return of a₂ is slower at low n (densities not listed in the text)."},
     {7, "a₂ against τ/τ_c", figure_07, four_restitutions,
@@ -81,7 +83,8 @@ constexpr std::array<Figure, 14> figures = {{
     {13, "energy above Haff's law", figure_13, four_restitutions,
      "the energy equation with b = 0.30 until τ_c, where E − E_Haff meets E_Haff."},
     {14, "shuffled against not", figure_14, shuffled,
-     "not drawn there, but argued with: without correlations a₂ stays at its plateau."},
+     "not drawn there, but argued with: without correlations a₂ keeps the value that it first "
+     "settles to."},
 }};
 
 std::vector<Figure> asked_for(const std::vector<int>& only) {

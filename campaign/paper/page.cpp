@@ -19,13 +19,14 @@ namespace {
 
 constexpr std::string_view style = R"(
   body { font: 16px/1.5 Arial, "Liberation Sans", sans-serif; color: #222; margin: 2rem auto;
-         max-width: 78rem; padding: 0 1.5rem; background: #fff; }
+         max-width: 78rem; padding: 0 clamp(0.5rem, 3vw, 1.5rem); background: #fff; }
   h1 { font-size: 1.7rem; margin-bottom: 0.2rem; }
   h2 { font-size: 1.25rem; margin: 2.5rem 0 0.6rem; }
   h3 { font-size: 1.05rem; margin: 0 0 0.5rem; }
-  .figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(34rem, 1fr));
+  .figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(34rem, 100%), 1fr));
              gap: 2rem; }
-  figure { margin: 0; border: 1px solid #ddd; border-radius: 4px; padding: 1rem; }
+  figure { margin: 0; min-width: 0; border: 1px solid #ddd; border-radius: 4px;
+           padding: clamp(0.4rem, 2vw, 1rem); }
   figure img { width: 100%; height: auto; }
   figcaption { font-size: 0.88rem; color: #444; }
   .paper { color: #0072b2; }
@@ -39,19 +40,13 @@ constexpr std::string_view style = R"(
   .no { color: #b34700; font-weight: bold; }
 )";
 
-// A value with as many digits as its error leaves sense to: 57.49 ± 1.14, 0.9682 ± 0.0003.
 std::string number(double value, double error = Comparison::none) {
-  if (!std::isfinite(value)) return "";
-  if (!std::isfinite(error) || error <= 0) return fmt::format("{:.4g}", value);
-  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
-  return fmt::format("{:.{}f} ± {:.{}f}", value, digits, error, digits);
+  return std::isfinite(value) ? value_with_error(value, error) : std::string();
 }
 
 std::string deviation(const Comparison& row) {
   if (!std::isfinite(row.value) || !std::isfinite(row.reference) || row.reference == 0) return "";
-  std::string text = fmt::format("{:+.2f} %", 100 * (row.value / row.reference - 1));
-  if (row.error > 0) text += fmt::format(", {:+.1f} se", (row.value - row.reference) / row.error);
-  return text;
+  return fmt::format("{:+.2f} %", 100 * (row.value / row.reference - 1));
 }
 
 std::string verdict(const Comparison& row) {
@@ -71,8 +66,9 @@ std::string table_text(const std::vector<Comparison>& table) {
         "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"number\">{}</td><td>{}</td>"
         "<td class=\"number\">{}</td><td>{}</td>{}<td>{}</td></tr>\n",
         xml_escaped(row.quantity), row.e ? restitution_text(*row.e) : "",
-        row.n ? density_text(*row.n) : "", number(row.value, row.error), xml_escaped(reference),
-        deviation(row), xml_escaped(row.criterion), verdict(row), xml_escaped(row.note));
+        row.n ? density_text(*row.n) : "", number(row.value, row.half_interval),
+        xml_escaped(reference), deviation(row), xml_escaped(row.criterion), verdict(row),
+        xml_escaped(row.note));
   }
   return text + "</table></div>\n";
 }
@@ -109,10 +105,14 @@ void write_page(const std::vector<FigureEntry>& figures, const std::vector<Compa
     const auto judged = std::ranges::count_if(table, [](const auto& row) { return !!row.holds; });
     const auto held =
         std::ranges::count_if(table, [](const auto& row) { return row.holds.value_or(false); });
-    page << fmt::format("<h2>Agreement: {} of {} within their tolerance</h2>\n", held, judged)
+    page << fmt::format("<h2>Agreement: {} of {} claims hold</h2>\n", held, judged)
          << table_text(table)
-         << "<p>± is the standard error of the mean over realizations. The same table with all "
-            "digits: <a href=\"agreement.csv\">agreement.csv</a>.</p>\n";
+         << "<p>± is half the 95 % interval of the mean over realizations, by Student's t. A claim "
+            "holds if the value lies nearer to the reference than half the way to the nearest "
+            "theory that is known to be wrong; it is not judged where the interval is wider than "
+            "that. Claims at different e share their realizations' initial states, so they are not "
+            "independent. The same table with all digits: <a href=\"agreement.csv\">"
+            "agreement.csv</a>.</p>\n";
   }
   page << "<h2>Figures</h2>\n<div class=\"figures\">\n";
   for (const FigureEntry& figure : figures) page << figure_text(figure);

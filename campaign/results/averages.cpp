@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -10,6 +11,9 @@
 #include <tuple>
 #include <utility>
 #include <variant>
+
+#include "analysis/observables/moments.hpp"
+#include "analysis/statistics/accuracy.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -40,6 +44,27 @@ constexpr const char* key_columns =
     "coalesce(profiles_every, 0), coalesce(fields_at, '')";
 constexpr std::size_t keys = 9;
 
+// What is averaged, in the order of read_means; of a Laguerre coefficient its order.
+struct Measured {
+  Observable means;
+  int laguerre = 0;
+};
+constexpr std::array<Measured, 5> measured_columns{{{&MeanSeries::temperature},
+                                                    {&MeanSeries::gamma_ratio},
+                                                    {&MeanSeries::a2, 2},
+                                                    {&MeanSeries::a3, 3},
+                                                    {&MeanSeries::a4, 4}}};
+
+// Of the last sample of the series.
+double error_of(const Measured& column, double standard_error, const MeanSeries& series) {
+  const std::int64_t realizations = series.realizations.back();
+  const double scatter = bar(standard_error, realizations);
+  if (column.laguerre == 0 || !std::isfinite((series.*column.means).value.back())) return scatter;
+  const double known = analysis::laguerre_noise(
+      column.laguerre, static_cast<double>(series.particles * realizations));
+  return scatter > known ? scatter : known;  // one realization has no scatter
+}
+
 schema::Row key_of(const schema::Row& row) {
   return {row.begin(), row.begin() + keys};
 }
@@ -63,10 +88,10 @@ std::map<schema::Row, MeanSeries> read_means(const schema::Reader& store, const 
     series.realizations.push_back(integer(r[keys]));
     series.tau.push_back(real(r[keys + 1]));
     std::size_t column = keys + 2;
-    for (const Observable each : {&MeanSeries::temperature, &MeanSeries::gamma_ratio,
-                                  &MeanSeries::a2, &MeanSeries::a3, &MeanSeries::a4}) {
-      (series.*each).value.push_back(real(r[column++]));
-      (series.*each).error.push_back(real(r[column++]));
+    for (const Measured& each : measured_columns) {
+      Means& means = series.*each.means;
+      means.value.push_back(real(r[column++]));
+      means.error.push_back(error_of(each, real(r[column++]), series));
     }
     if (const double every = real(r[column]); every > 0) series.shuffled_every = every;
   }
@@ -91,7 +116,7 @@ void read_profiles(const schema::Reader& store, std::map<schema::Row, MeanSeries
     }
     profiles.back().x.push_back(real(r[keys + 3]));
     profiles.back().mean.value.push_back(real(r[keys + 4]));
-    profiles.back().mean.error.push_back(real(r[keys + 5]));
+    profiles.back().mean.error.push_back(bar(real(r[keys + 5]), profiles.back().realizations));
   }
 }
 
@@ -181,6 +206,16 @@ std::tuple<std::int64_t, double> rank(const MeanSeries& series) {
 
 }  // namespace
 
+double bar(double standard_error, std::int64_t realizations) {
+  if (realizations < 2) return none;
+  static thread_local std::map<std::int64_t, double> known;  // the quantile is dear
+  const auto [place, is_new] = known.try_emplace(realizations, 0);
+  if (is_new)
+    place->second =
+        analysis::student_t(static_cast<std::size_t>(realizations - 1), analysis::bar_confidence);
+  return place->second * standard_error;
+}
+
 std::int64_t MeanSeries::most_realizations() const {
   return *std::ranges::max_element(realizations);
 }
@@ -224,8 +259,10 @@ std::optional<MeanTauC> mean_tau_c(const MeanSeries& series) {
                   .realizations = std::ssize(series.runs),
                   .reached = std::ssize(reached),
                   .tau_c = estimate.mean,
-                  .error = estimate.standard_error,
-                  .interval = analysis::bootstrap_interval(reached)};
+                  .error = bar(estimate.standard_error, std::ssize(reached)),
+                  .half_interval = reached.size() > 1
+                                       ? analysis::half_interval(estimate, reached.size())
+                                       : none};
 }
 
 std::vector<MeanSeries> choose_series(const Averages& averages, double n, Observable observable) {

@@ -14,10 +14,16 @@
 
 namespace haff::campaign {
 
-// A mean over realizations and its standard error, one a sample; NaN where there is none.
+// Means over realizations, one a sample, and their errors: half the 68 % interval of the mean by
+// Student's t, which is larger than the standard error by 1.84, 1.32, 1.20 for 2, 3, 4
+// realizations; a standard error of so few values is itself known too badly to be drawn.
+// Neighbouring samples are correlated. NaN where there is none.
 struct Means {
   std::vector<double> value, error;
 };
+
+// Such an error, of a standard error over so many realizations. NaN for one.
+double bar(double standard_error, std::int64_t realizations);
 
 // One finished run: for what is fitted, or drawn, realization by realization.
 struct Realization {
@@ -50,7 +56,11 @@ struct MeanSeries {
   std::optional<double> shuffled_every = {};    // [tau]
   std::vector<std::int64_t> realizations = {};  // that have this sample
   std::vector<double> tau = {};
-  Means temperature = {}, gamma_ratio = {}, a2 = {}, a3 = {}, a4 = {};
+  Means temperature = {}, gamma_ratio = {};
+  // Their errors are known beforehand where velocities are nearly Gaussian
+  // (analysis/observables/moments.hpp): never less than that, and that where there is one
+  // realization.
+  Means a2 = {}, a3 = {}, a4 = {};
   std::vector<MeanProfile> profiles = {};    // by name, then tau
   std::vector<Realization> runs = {};        // by seed
   std::int64_t missing = 0;                  // realizations planned, but not done
@@ -80,8 +90,8 @@ struct MeanTauC {
   std::int64_t realizations = 0;
   std::int64_t reached = 0;  // where fewer than realizations, the others stopped before it
   double tau_c = 0;
-  double error = 0;                  // standard error; NaN for one realization
-  analysis::Interval interval = {};  // 95 % bootstrap interval of the mean
+  double error = 0;          // as in Means
+  double half_interval = 0;  // of 95 %, by Student's t; NaN for one realization
 };
 
 struct Averages {

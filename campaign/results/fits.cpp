@@ -38,6 +38,18 @@ bool has_temperature(const Realization& run) {
   return std::ranges::all_of(run.temperature, [](double t) { return t > 0; });
 }
 
+// The exponent within a part of the late stage, in shares of its ln tau.
+std::optional<analysis::Estimate> exponent_within(const MeanSeries& series, double from,
+                                                  double to) {
+  return over_realizations(series, [&](const Realization& run) -> std::optional<double> {
+    if (!has_temperature(run) || !run.tau_c || run.tau.back() < late_until * *run.tau_c)
+      return std::nullopt;
+    const double begin = late_from * *run.tau_c, end = run.tau.back();
+    const auto at = [&](double share) { return begin * std::pow(end / begin, share); };
+    return -analysis::late_exponent(run.tau, run.temperature, at(from), at(to)).exponent;
+  });
+}
+
 }  // namespace
 
 std::optional<analysis::Estimate> fitted_cutoff(const MeanSeries& series) {
@@ -50,19 +62,22 @@ std::optional<analysis::Estimate> fitted_cutoff(const MeanSeries& series) {
                                run.temperature.begin() + (end - run.tau.begin()));
     for (double& each : energy) each /= analysis::initial_temperature();
     return analysis::fit_cutoff({.e = series.e, .n = series.n}, std::span(run.tau).first(samples),
-                                energy)
+                                energy, {}, analysis::Velocities::enskog_boltzmann)
         .b;
   });
 }
 
 std::optional<analysis::Estimate> late_exponent(const MeanSeries& series) {
-  return over_realizations(series, [](const Realization& run) -> std::optional<double> {
-    if (!has_temperature(run) || !run.tau_c || run.tau.back() < late_until * *run.tau_c)
-      return std::nullopt;
-    return -analysis::late_exponent(run.tau, run.temperature, late_from * *run.tau_c,
-                                    run.tau.back())
-                .exponent;
-  });
+  return exponent_within(series, 0, 1);
+}
+
+std::vector<analysis::Estimate> late_local_exponents(const MeanSeries& series) {
+  constexpr int parts = 3;
+  std::vector<analysis::Estimate> local;
+  for (int k = 0; k < parts; ++k)
+    if (const auto slope = exponent_within(series, double(k) / parts, double(k + 1) / parts))
+      local.push_back(*slope);
+  return local;
 }
 
 }  // namespace haff::campaign

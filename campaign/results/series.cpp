@@ -11,6 +11,7 @@
 #include "campaign/base/job_text.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/text_table.hpp"
+#include "campaign/results/averages.hpp"
 #include "campaign/results/published.hpp"
 
 namespace haff::campaign {
@@ -75,8 +76,8 @@ std::map<Key, TauC> mean_tau_c(const schema::Reader& store) {
 
 std::string tau_c_text(const Series& series) {
   if (!series.tau_c) return no_value;
-  std::string text = fmt::format("{:.2f}", *series.tau_c);
-  if (series.tau_c_se) text += fmt::format(" ± {:.2f}", *series.tau_c_se);
+  const double error = series.tau_c_se ? bar(*series.tau_c_se, series.reached) : 0;
+  std::string text = value_with_error(*series.tau_c, error);
   if (series.reached < series.done) text += fmt::format(" ({} of {})", series.reached, series.done);
   return text;
 }
@@ -158,9 +159,10 @@ std::string series_table(const std::vector<Series>& list) {
   if (has_disks) columns.insert(columns.begin(), {"d"});
   if (rest.is_needed()) columns.push_back({"", Align::left});
   TextTable table(columns);
-  bool any_published = false;
+  bool any_published = false, any_error = false;
   for (const Series& series : list) {
     any_published |= series.published_tau_c.has_value();
+    any_error |= series.tau_c_se.has_value();
     std::vector<std::string> cells{
         number_text(series.job.n),
         count_text(series.job.particles),
@@ -176,6 +178,7 @@ std::string series_table(const std::vector<Series>& list) {
     table.add(std::move(cells));
   }
   std::string text = table.text();
+  if (any_error) text += "±: 68 % interval of the mean over realizations, by Student's t\n";
   if (any_published) text += fmt::format("published: {}\n", published_source);
   return text;
 }

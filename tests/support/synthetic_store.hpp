@@ -37,8 +37,9 @@ class Gaussian {
   std::uint64_t state_;
 };
 
-// A gas whose energy obeys the energy equation, and whose a_2 leaves the Gaussian as Enskog and
-// Boltzmann have it and returns with the correlations; errors as those of N particles.
+// A gas whose energy obeys the energy equation (with the loss of Enskog-Boltzmann theory), and
+// whose a_2 leaves the Gaussian as Enskog and Boltzmann have it and returns with the correlations;
+// errors as those of N particles.
 class SyntheticGas {
  public:
   SyntheticGas(schema::Job job, double tau_max) : job_(std::move(job)), tau_max_(tau_max) {}
@@ -46,7 +47,9 @@ class SyntheticGas {
   std::vector<schema::Sample> samples() {
     std::vector<double> tau;
     for (int k = 0; k * job_.sample_every <= tau_max_; ++k) tau.push_back(k * job_.sample_every);
-    const auto theory = analysis::energy_equation({.e = *job_.e, .n = job_.n}, tau);
+    const auto theory =
+        analysis::energy_equation({.e = *job_.e, .n = job_.n}, tau, analysis::cutoff_b,
+                                  analysis::Velocities::enskog_boltzmann);
     const double noise = 1 / std::sqrt(static_cast<double>(job_.particles));
 
     std::vector<schema::Sample> all;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/theory/cooling.hpp"
+#include "analysis/theory/enskog_boltzmann.hpp"
 
 using namespace haff::analysis;
 using doctest::Approx;
@@ -123,4 +124,39 @@ TEST_CASE("energy equation: a fit to nothing is refused") {
                   std::invalid_argument);
   CHECK_THROWS_AS(fit_cutoff(gas, std::vector{1.0, 2.0}, std::vector{1.0, -0.9}),
                   std::invalid_argument);
+}
+
+TEST_CASE("energy equation: a dilute gas loses energy as Enskog and Boltzmann have it") {
+  // Tr G^+ vanishes with n: at 10^-5 it takes less than 10^-7 of the energy.
+  const Gas dilute{.e = 0.85, .n = 1e-5};
+  const auto points =
+      energy_equation(dilute, std::vector{1.0, 5.0, 20.0}, cutoff_b, Velocities::enskog_boltzmann);
+  for (const EnergyPoint& point : points)
+    CHECK(point.gamma_ratio ==
+          Approx(boltzmann_gamma_ratio(boltzmann_a2(point.tau, dilute.e))).epsilon(1e-6));
+}
+
+TEST_CASE("energy equation: energy, decay rate and tau_c are of one solution, whatever f is") {
+  const Gas gas{.e = 0.85, .n = 0.4};
+  constexpr double h = 1e-3;
+  const auto points = energy_equation(gas, std::vector{30 - h, 30.0, 30 + h}, cutoff_b,
+                                      Velocities::enskog_boltzmann);
+  const double slope = std::log(points[0].energy / points[2].energy) / (2 * h);
+  CHECK(points[1].gamma_ratio == Approx(slope / (2 * gamma0(gas.e))).epsilon(1e-6));
+  const double crossover = energy_equation_tau_c(gas, cutoff_b, Velocities::enskog_boltzmann);
+  const auto there =
+      energy_equation(gas, std::vector{crossover}, cutoff_b, Velocities::enskog_boltzmann);
+  CHECK(there[0].energy == Approx(2 * there[0].haff).epsilon(1e-8));
+  CHECK(crossover < energy_equation_tau_c(gas));  // f < 1: energy is lost more slowly
+}
+
+TEST_CASE("energy equation: b is found again with the f that the energies were made with") {
+  const Gas gas{.e = 0.85, .n = 0.1};
+  std::vector<double> tau, energy;
+  for (int k = 1; k <= 80; ++k) tau.push_back(k);
+  for (const EnergyPoint& point : energy_equation(gas, tau, 0.35, Velocities::enskog_boltzmann))
+    energy.push_back(point.energy);
+  CHECK(fit_cutoff(gas, tau, energy, {}, Velocities::enskog_boltzmann).b ==
+        Approx(0.35).epsilon(1e-6));
+  CHECK(fit_cutoff(gas, tau, energy).b > 0.38);  // it takes f's part for that of correlations
 }
