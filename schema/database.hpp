@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "schema/column.hpp"
 #include "schema/error.hpp"
 
 namespace haff::schema {
@@ -37,6 +38,8 @@ class Database {
       return std::forward<Work>(work)();
     } catch (const SQLite::Exception& error) {
       raise(path_, error);
+    } catch (const BadValue& bad) {
+      throw Damage(path_.string() + ": " + bad.what());
     }
   }
 

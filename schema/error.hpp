@@ -10,10 +10,17 @@ struct StoreError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The system would not let the store be read or written just now: another process holds a lock, no
+// memory or file descriptor is left, the disk answers with an error. This says nothing about what
+// is stored, and is never a reason to throw any of it away.
+struct Unavailable : StoreError {
+  using StoreError::StoreError;
+};
+
 // The disk is full or does not write. The transaction was rolled back: the store holds what it
 // held before.
-struct DiskError : StoreError {
-  using StoreError::StoreError;
+struct DiskError : Unavailable {
+  using Unavailable::Unavailable;
 };
 
 // Another process kept the store locked for longer than this one may wait.

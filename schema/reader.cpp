@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 #include "schema/checksum.hpp"
@@ -8,6 +7,19 @@
 #include "schema/store.hpp"
 
 namespace haff::schema {
+
+namespace {
+
+// Of all tables this is the one that most is read from: say which row is wrong.
+JobRow row_of_job(const SQLite::Statement& row) {
+  try {
+    return job_row(row);
+  } catch (const BadValue& bad) {
+    throw BadValue("job " + std::to_string(row.getColumn("job_id").getInt64()) + ": " + bad.what());
+  }
+}
+
+}  // namespace
 
 Reader::Reader(const std::filesystem::path& path)
     : Reader(std::make_unique<Database>(path, Access::read)) {}
@@ -66,6 +78,15 @@ std::map<Status, std::int64_t> Reader::job_counts() const {
   });
 }
 
+std::vector<std::int64_t> Reader::job_ids() const {
+  return database_->guarded([&] {
+    SQLite::Statement statement(database_->sqlite(), "SELECT job_id FROM jobs ORDER BY job_id");
+    std::vector<std::int64_t> ids;
+    while (statement.executeStep()) ids.push_back(integer(statement, "job_id"));
+    return ids;
+  });
+}
+
 std::vector<JobRow> Reader::jobs() const {
   return database_->guarded([&] {
     SQLite::Statement statement(database_->sqlite(), R"(
@@ -73,7 +94,7 @@ std::vector<JobRow> Reader::jobs() const {
       ORDER BY kind DESC, d, n, particles, e, equilibrate, sample_every, effects,
                observables, profiles_every, fields_at, seed)");
     std::vector<JobRow> rows;
-    while (statement.executeStep()) rows.push_back(job_row(statement));
+    while (statement.executeStep()) rows.push_back(row_of_job(statement));
     return rows;
   });
 }
@@ -84,7 +105,7 @@ JobRow Reader::job(std::int64_t job_id) const {
     statement.bind(1, job_id);
     if (!statement.executeStep())
       throw StoreError(path().string() + ": there is no job " + std::to_string(job_id));
-    return job_row(statement);
+    return row_of_job(statement);
   });
 }
 
@@ -172,7 +193,7 @@ std::vector<Profile> Reader::profiles(std::int64_t job_id, const std::string& na
     points.bind(2, name);
     std::vector<Profile> profiles;
     while (points.executeStep()) {
-      const double tau = real(points, "tau");
+      const double tau = not_negative(points, "tau");
       if (profiles.empty() || profiles.back().tau != tau)
         profiles.push_back({.name = name, .tau = tau});
       profiles.back().x.push_back(real(points, "x"));
@@ -185,20 +206,24 @@ std::vector<Profile> Reader::profiles(std::int64_t job_id, const std::string& na
 std::optional<Field> Reader::field(std::int64_t job_id, const std::string& name, double tau) const {
   return database_->guarded([&]() -> std::optional<Field> {
     SQLite::Statement row(database_->sqlite(),
-                          "SELECT * FROM fields WHERE job_id = ? AND name = ? AND tau = ?");
+                          "SELECT fields.*, d FROM fields JOIN jobs USING (job_id) "
+                          "WHERE job_id = ? AND name = ? AND fields.tau = ?");
     row.bind(1, job_id);
     row.bind(2, name);
     row.bind(3, tau);
     if (!row.executeStep()) return std::nullopt;
-    Field field{.name = name,
-                .tau = tau,
-                .cells = static_cast<int>(integer(row, "cells")),
-                .components = static_cast<int>(integer(row, "components")),
-                .box = real(row, "box")};
-    const auto data = row.getColumn("data");
-    field.values.resize(static_cast<std::size_t>(data.getBytes()) / sizeof(double));
-    std::memcpy(field.values.data(), data.getBlob(), field.values.size() * sizeof(double));
-    return field;
+    return field_of(row);
+  });
+}
+
+std::vector<FieldName> Reader::fields(std::int64_t job_id) const {
+  return database_->guarded([&] {
+    SQLite::Statement row(database_->sqlite(),
+                          "SELECT name, tau FROM fields WHERE job_id = ? ORDER BY name, tau");
+    row.bind(1, job_id);
+    std::vector<FieldName> names;
+    while (row.executeStep()) names.push_back({text(row, "name"), not_negative(row, "tau")});
+    return names;
   });
 }
 
@@ -217,10 +242,10 @@ std::optional<Invariants> Reader::invariants(std::int64_t job_id) const {
     row.bind(1, job_id);
     if (!row.executeStep()) return std::nullopt;
     return Invariants{.largest_overlap = real(row, "largest_overlap"),
-                      .past_events = integer(row, "past_events"),
-                      .watchdog_trips = integer(row, "watchdog_trips"),
-                      .energy_mismatch = real(row, "energy_mismatch"),
-                      .momentum_removed = real(row, "momentum_removed")};
+                      .past_events = integer(row, "past_events", 0),
+                      .watchdog_trips = integer(row, "watchdog_trips", 0),
+                      .energy_mismatch = not_negative(row, "energy_mismatch"),
+                      .momentum_removed = not_negative(row, "momentum_removed")};
   });
 }
 
@@ -235,14 +260,14 @@ std::vector<Target> Reader::targets() const {
     while (row.executeStep()) {
       targets.push_back({.series = text(row, "series"),
                          .quantity = text(row, "quantity"),
-                         .tau_from = real(row, "tau_from"),
-                         .tau_to = real(row, "tau_to"),
-                         .se = real(row, "se"),
-                         .pilots = seeds_in(text(row, "pilots"))});
+                         .tau_from = not_negative(row, "tau_from"),
+                         .tau_to = not_negative(row, "tau_to"),
+                         .se = positive(row, "se"),
+                         .pilots = pilots(row)});
       if (!row.isColumnNull("realizations"))
-        targets.back().prediction = {
-            .realizations = static_cast<std::size_t>(integer(row, "realizations")),
-            .cpu_seconds = real(row, "cpu_seconds")};
+        targets.back().prediction = {.realizations = static_cast<std::size_t>(
+                                         integer(row, "realizations", 0, largest_whole)),
+                                     .cpu_seconds = not_negative(row, "cpu_seconds")};
     }
     return targets;
   });
@@ -276,6 +301,14 @@ std::optional<Checkpoint> Reader::checkpoint(std::int64_t job_id) const {
     header.bind(1, job_id);
     if (!header.executeStep()) return std::nullopt;
     const CheckpointInfo info = checkpoint_info(header);
+    SQLite::Statement total(database_->sqlite(),
+                            "SELECT total(length(bytes)) AS size FROM checkpoint_chunks "
+                            "WHERE job_id = ? AND typeof(bytes) = 'blob'");
+    total.bind(1, job_id);
+    total.executeStep();
+    if (const double size = real(total, "size"); size != static_cast<double>(info.bytes))
+      throw damaged("it holds " + std::to_string(static_cast<std::int64_t>(size)) + " bytes of " +
+                    std::to_string(info.bytes));
 
     Checkpoint checkpoint{.tau = info.tau, .collisions = info.collisions, .state = {}};
     SQLite::Statement chunks(
@@ -289,9 +322,6 @@ std::optional<Checkpoint> Reader::checkpoint(std::int64_t job_id) const {
       const auto* bytes = static_cast<const std::byte*>(chunk.getBlob());
       checkpoint.state.insert(checkpoint.state.end(), bytes, bytes + chunk.getBytes());
     }
-    const auto size = static_cast<std::int64_t>(checkpoint.state.size());
-    if (size != info.bytes)
-      throw damaged("it holds " + std::to_string(size) + " bytes of " + std::to_string(info.bytes));
     if (static_cast<std::int64_t>(checksum(checkpoint.state)) != integer(header, "checksum"))
       throw damaged("its bytes do not add up to its checksum");
     return checkpoint;

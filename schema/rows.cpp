@@ -1,43 +1,108 @@
 #include "schema/rows.hpp"
 
+#include <cstring>
+#include <exception>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
 
 namespace haff::schema {
 
+namespace {
+
+constexpr std::int64_t most_particles = std::numeric_limits<std::uint32_t>::max();
+
+// What `read` makes of a text, which must be the text that `write` makes of that.
+template <class Read, class Write>
+auto canonical(const SQLite::Statement& row, const char* column, Read&& read, Write&& write) {
+  const std::string stored = text(row, column);
+  try {
+    auto value = read(stored);
+    if (write(value) == stored) return value;
+  } catch (const std::exception&) {  // not JSON, or other JSON than expected
+  }
+  throw BadValue(std::string("the column ") + column + " is not as campaign writes it");
+}
+
+// {"effect":{"parameter":number, ...}, ...}; only the law of restitution is called by a name.
+nlohmann::json effects_in(const std::string& text) {
+  auto effects = nlohmann::json::parse(text);
+  for (const auto& [effect, parameters] : effects.get<nlohmann::json::object_t>())
+    for (const auto& [parameter, value] : parameters.get<nlohmann::json::object_t>()) {
+      const bool is_law = effect == "restitution" && parameter == "law" && value.is_string();
+      if (!is_law && !value.is_number()) throw std::invalid_argument("not a number");
+    }
+  return effects;
+}
+
+std::string effects(const SQLite::Statement& row) {
+  return canonical(row, "effects", effects_in, [](const nlohmann::json& all) { return all.dump(); })
+      .dump();
+}
+
+std::vector<double> fields_at(const SQLite::Statement& row) {
+  if (row.isColumnNull("fields_at")) return {};
+  return canonical(row, "fields_at", fields_at_in, fields_at_text);
+}
+
+// A kind or a status by its name.
+template <class Named>
+auto named(const SQLite::Statement& row, const char* column, Named&& known) {
+  try {
+    return known(text(row, column));
+  } catch (const std::invalid_argument& unknown) {
+    throw BadValue(unknown.what());
+  }
+}
+
+// As many samples or collisions as no run ever makes: beyond, whole numbers would overflow.
+void must_be_countable(const Job& job, double tau_max) {
+  constexpr auto most = static_cast<double>(largest_whole);
+  if (tau_max / job.sample_every > most || tau_max * job.particles > most)
+    throw BadValue("the column tau_max holds a number that no run reaches");
+}
+
+}  // namespace
+
 Job job_of(const SQLite::Statement& row) {
-  return {.kind = kind_named(text(row, "kind")),
-          .d = static_cast<int>(integer(row, "d")),
-          .e = optional_real(row, "e"),
-          .n = real(row, "n"),
-          .particles = static_cast<std::uint32_t>(integer(row, "particles")),
-          .seed = static_cast<std::uint64_t>(integer(row, "seed")),
-          .equilibrate = real(row, "equilibrate"),
-          .sample_every = real(row, "sample_every"),
-          .effects = text(row, "effects"),
-          .observables = observables_in(text(row, "observables")),
-          .profiles_every = optional_real(row, "profiles_every"),
-          .fields_at = row.isColumnNull("fields_at") ? std::vector<double>()
-                                                     : fields_at_in(text(row, "fields_at"))};
+  const Job job{
+      .kind = named(row, "kind", kind_named),
+      .d = static_cast<int>(integer(row, "d", 2, 3)),
+      .e = optional_real(row, "e"),
+      .n = positive(row, "n"),
+      .particles = static_cast<std::uint32_t>(integer(row, "particles", 2, most_particles)),
+      .seed = static_cast<std::uint64_t>(integer(row, "seed", 0, largest_whole)),
+      .equilibrate = positive(row, "equilibrate"),
+      .sample_every = positive(row, "sample_every"),
+      .effects = effects(row),
+      .observables = canonical(row, "observables", observables_in, observables_text),
+      .profiles_every = optional(row, "profiles_every", positive),
+      .fields_at = fields_at(row)};
+  if (job.e && !(*job.e >= 0 && *job.e <= 1))
+    throw BadValue("the column e holds a number that is not between 0 and 1");
+  return job;
 }
 
 JobRow job_row(const SQLite::Statement& row) {
   JobRow job{.job_id = integer(row, "job_id"),
              .job = job_of(row),
-             .tau_max = real(row, "tau_max"),
-             .checkpoint_every = real(row, "checkpoint_every"),
-             .equilibration_id = std::nullopt,
-             .status = status_named(text(row, "status")),
-             .attempts = static_cast<int>(integer(row, "attempts")),
+             .tau_max = positive(row, "tau_max"),
+             .checkpoint_every = positive(row, "checkpoint_every"),
+             .equilibration_id = optional(
+                 row, "equilibration_id",
+                 [](const auto& from, const char* column) { return integer(from, column); }),
+             .status = named(row, "status", status_named),
+             .attempts = static_cast<int>(integer(row, "attempts", 0, max_attempts)),
              .error = optional_text(row, "error"),
              .progress = progress_of(row),
-             .expected_cpu_seconds = optional_real(row, "expected_cpu_seconds"),
-             .created = text(row, "created"),
-             .started = optional_text(row, "started"),
-             .finished = optional_text(row, "finished"),
+             .expected_cpu_seconds = optional(row, "expected_cpu_seconds", not_negative),
+             .created = timestamp(row, "created"),
+             .started = optional(row, "started", timestamp),
+             .finished = optional(row, "finished", timestamp),
              .code_version = optional_text(row, "code_version"),
              .host = optional_text(row, "host")};
-  if (!row.isColumnNull("equilibration_id"))
-    job.equilibration_id = integer(row, "equilibration_id");
+  must_be_countable(job.job, job.tau_max);
   return job;
 }
 
@@ -49,14 +114,14 @@ Owner owner(const SQLite::Statement& row) {
 }
 
 Progress progress_of(const SQLite::Statement& row) {
-  return {.tau = real(row, "tau"),
-          .collisions = integer(row, "collisions"),
-          .cpu_seconds = real(row, "cpu_seconds")};
+  return {.tau = not_negative(row, "tau"),
+          .collisions = integer(row, "collisions", 0),
+          .cpu_seconds = not_negative(row, "cpu_seconds")};
 }
 
 Sample sample(const SQLite::Statement& row) {
-  return {.tau = real(row, "tau"),
-          .time = real(row, "time"),
+  return {.tau = not_negative(row, "tau"),
+          .time = not_negative(row, "time"),
           .temperature = optional_real(row, "temperature"),
           .gamma_ratio = optional_real(row, "gamma_ratio"),
           .collision_rate = optional_real(row, "collision_rate"),
@@ -75,9 +140,33 @@ Sample sample(const SQLite::Statement& row) {
 
 CheckpointInfo checkpoint_info(const SQLite::Statement& row) {
   return {.job_id = integer(row, "job_id"),
-          .tau = real(row, "tau"),
-          .collisions = integer(row, "collisions"),
-          .bytes = integer(row, "bytes")};
+          .tau = not_negative(row, "tau"),
+          .collisions = integer(row, "collisions", 0),
+          .bytes = integer(row, "bytes", 0)};
+}
+
+Field field_of(const SQLite::Statement& row) {
+  // 32 cells are the most that a job takes; this many are far more, and no size overflows.
+  constexpr std::int64_t most_cells = 1024;
+  const auto d = static_cast<int>(integer(row, "d", 2, 3));
+  Field field{.name = text(row, "name"),
+              .tau = not_negative(row, "tau"),
+              .cells = static_cast<int>(integer(row, "cells", 1, most_cells)),
+              .components = static_cast<int>(integer(row, "components", 1, 3)),
+              .box = positive(row, "box")};
+  std::size_t values = static_cast<std::size_t>(field.components);
+  for (int axis = 0; axis < d; ++axis) values *= static_cast<std::size_t>(field.cells);
+  const auto data = row.getColumn("data");
+  if (!data.isBlob() || static_cast<std::size_t>(data.getBytes()) != values * sizeof(double))
+    throw BadValue("the field " + field.name + " at tau = " + std::to_string(field.tau) +
+                   " does not hold as many values as its cells and components say");
+  field.values.resize(values);
+  std::memcpy(field.values.data(), data.getBlob(), values * sizeof(double));
+  return field;
+}
+
+std::vector<std::uint64_t> pilots(const SQLite::Statement& row) {
+  return canonical(row, "pilots", seeds_in, seeds_text);
 }
 
 std::string seeds_text(const std::vector<std::uint64_t>& seeds) {

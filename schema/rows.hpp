@@ -1,4 +1,6 @@
-// Rows of the store's tables as the structs of store.hpp. Private to this folder.
+// Rows of the store's tables as the structs of store.hpp, each checked as far as a row can be
+// checked by itself: BadValue (column.hpp) if this program would not have written it. Private to
+// this folder.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -6,31 +8,10 @@
 #include <optional>
 #include <string>
 
+#include "schema/column.hpp"
 #include "schema/store.hpp"
 
 namespace haff::schema {
-
-inline std::int64_t integer(const SQLite::Statement& row, const char* column) {
-  return row.getColumn(column).getInt64();
-}
-
-inline double real(const SQLite::Statement& row, const char* column) {
-  return row.getColumn(column).getDouble();
-}
-
-inline std::string text(const SQLite::Statement& row, const char* column) {
-  return row.getColumn(column).getString();
-}
-
-inline std::optional<double> optional_real(const SQLite::Statement& row, const char* column) {
-  if (row.isColumnNull(column)) return std::nullopt;
-  return real(row, column);
-}
-
-inline std::optional<std::string> optional_text(const SQLite::Statement& row, const char* column) {
-  if (row.isColumnNull(column)) return std::nullopt;
-  return text(row, column);
-}
 
 Job job_of(const SQLite::Statement& row);
 JobRow job_row(const SQLite::Statement& row);
@@ -38,6 +19,9 @@ Owner owner(const SQLite::Statement& row);
 Progress progress_of(const SQLite::Statement& row);
 Sample sample(const SQLite::Statement& row);
 CheckpointInfo checkpoint_info(const SQLite::Statement& row);
+// Of a row of fields with the column d of its job: as many values as its cells hold.
+Field field_of(const SQLite::Statement& row);
+std::vector<std::uint64_t> pilots(const SQLite::Statement& row);
 
 // [1,2,3], as in the column targets.pilots. And back.
 std::string seeds_text(const std::vector<std::uint64_t>& seeds);

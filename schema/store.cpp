@@ -457,7 +457,7 @@ Status Store::fail(const Lease& lease, const std::string& error) {
     SQLite::Statement statement(database().sqlite(), R"(
       UPDATE jobs SET attempts = attempts + 1, error = :error WHERE job_id = :job_id
       RETURNING attempts)");
-    statement.bind(":error", error);
+    statement.bind(":error", printable(error));
     statement.bind(":job_id", lease.job_id);
     statement.executeStep();
     const bool last = integer(statement, "attempts") >= max_attempts;
@@ -473,7 +473,7 @@ void Store::collapse(const Lease& lease, const Commit& commit, const std::string
     SQLite::Database& sqlite = database().sqlite();
     entry.write(database());
     SQLite::Statement statement(sqlite, "UPDATE jobs SET error = ? WHERE job_id = ?");
-    statement.bind(1, what);
+    statement.bind(1, printable(what));
     statement.bind(2, lease.job_id);
     statement.exec();
     leave(sqlite, lease, Status::collapsed);

@@ -90,6 +90,11 @@ struct Field {
   std::vector<double> values = {};  // NaN where a cell has none
 };
 
+struct FieldName {
+  std::string name;
+  double tau = 0;
+};
+
 struct Results {
   std::optional<double> tau_c = {};   // first tau with T_Haff(tau) = T(tau)/2
   std::optional<double> time_c = {};  // the time of tau_c [sigma sqrt(m/E(0))]
@@ -242,6 +247,7 @@ class Reader {
   Summary summary() const;
   std::map<Status, std::int64_t> job_counts() const;  // Summary::jobs alone, from an index
   std::vector<JobRow> jobs() const;  // by kind, d, n, particles, e, ..., seed: a table's order
+  std::vector<std::int64_t> job_ids() const;
   JobRow job(std::int64_t job_id) const;
   std::optional<std::int64_t> find(const Job& job) const;
   std::vector<RunningJob> running() const;
@@ -261,6 +267,7 @@ class Reader {
   // A job's profiles of this name, by tau. Averages over realizations: the view mean_profiles.
   std::vector<Profile> profiles(std::int64_t job_id, const std::string& name) const;
   std::optional<Field> field(std::int64_t job_id, const std::string& name, double tau) const;
+  std::vector<FieldName> fields(std::int64_t job_id) const;  // those the job has
   std::optional<Results> results(std::int64_t job_id) const;
   std::optional<Invariants> invariants(std::int64_t job_id) const;
 

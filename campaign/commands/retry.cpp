@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <vector>
+
 #include "campaign/base/command_text.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/job_text.hpp"
@@ -13,14 +16,13 @@
 namespace haff::campaign {
 namespace {
 
-// Why the job cannot go on from its checkpoint, nor others start from it; or nothing.
-std::optional<std::string> damage_of(const schema::Store& store, const schema::JobRow& row) {
+// Why the job cannot go on from its state, nor others start from it; or nothing.
+std::optional<std::string> damage_of(const schema::Reader& store, const schema::JobRow& row) {
   const bool must_have_state =
       row.job.kind == schema::Kind::equilibration && row.status == schema::Status::done;
   try {
-    const auto checkpoint = store.checkpoint(row.job_id);
-    if (checkpoint) restore(*checkpoint, row.job);
-    if (!checkpoint && must_have_state) return "its state is gone";
+    const auto state = stored_state(store, row.job_id, row.job);
+    if (!state && must_have_state) return "its state is gone";
     return std::nullopt;
   } catch (const schema::Damage& damage) {
     return damage.what();
@@ -29,17 +31,43 @@ std::optional<std::string> damage_of(const schema::Store& store, const schema::J
   }
 }
 
+struct Damaged {
+  schema::JobRow row;
+  std::string why;
+};
+
+// Those whose state is damaged. A single bad read condemns none: what is wrong must be so a second
+// time, through a connection that has nothing in memory yet. An error of the system ends the
+// command before anything is changed.
+std::vector<Damaged> damaged_jobs(const schema::Reader& store) {
+  std::vector<Damaged> damaged;
+  for (const schema::JobRow& row : store.jobs()) {
+    if (row.status == schema::Status::running) continue;
+    if (!damage_of(store, row)) continue;
+    if (auto why = damage_of(schema::Reader(store.path()), row))
+      damaged.push_back({row, *std::move(why)});
+  }
+  return damaged;
+}
+
 }  // namespace
 
 int retry(const std::filesystem::path& path) {
   schema::Store store = schema::Store::open(path);
+  std::vector<Damaged> damaged;
+  try {
+    damaged = damaged_jobs(store);
+  } catch (const NewerCheckpoint& newer) {
+    say("{}: a newer program wrote one of its states ({}). Nothing was changed; update "
+        "campaign\n",
+        path.string(), printable(newer.what()));
+    return exit_failed;
+  }
   int restarted = 0;
-  for (const schema::JobRow& row : store.jobs()) {
-    if (row.status == schema::Status::running) continue;
-    const auto damage = damage_of(store, row);
-    if (!damage || !store.restart(row.job_id)) continue;
+  for (const auto& [row, why] : damaged) {
+    if (!store.restart(row.job_id)) continue;
     ++restarted;
-    say("job {} ({}) starts again: {}\n", row.job_id, describe(row.job), printable(*damage));
+    say("job {} ({}) starts again: {}\n", row.job_id, describe(row.job), printable(why));
   }
   const auto reopened = store.retry_failed();
   say("{} failed job{} reopened, {} with a damaged checkpoint start{} again\n", reopened,

@@ -145,7 +145,14 @@ struct Stored {
   std::span<const std::byte> bytes;
 };
 
+// A state has some fifteen fields, and an effect adds one or two: many more are none of ours, and
+// would be looked through again for each.
+constexpr std::uint32_t most_fields = 64;
+
 std::vector<Stored> read_table(Reader& reader, std::uint32_t fields) {
+  if (fields > most_fields)
+    throw DamagedCheckpoint(
+        fmt::format("checkpoint has {} fields, at most {} expected", fields, most_fields));
   std::vector<Stored> table;
   for (std::uint32_t k = 0; k < fields; ++k) {
     Stored field;
@@ -219,9 +226,10 @@ engine::State decode(std::span<const std::byte> bytes) {
   if (sum.get<std::uint64_t>() != checkpoint_checksum(content))
     throw DamagedCheckpoint("checkpoint fails its checksum");
   const auto found = reader.get<std::uint32_t>();
-  if (found < 1 || found > version)
-    throw DamagedCheckpoint(
-        fmt::format("checkpoint is of version {}, this program reads 1 to {}", found, version));
+  if (found > version)
+    throw NewerCheckpoint(
+        fmt::format("checkpoint is of format {}, this program knows those up to {}", found, version));
+  if (found < 1) throw DamagedCheckpoint("checkpoint is of format 0, which never was");
   const auto table = read_table(reader, reader.get<std::uint32_t>());
   if (!reader.at_end()) throw DamagedCheckpoint("checkpoint is longer than its fields");
 

@@ -23,12 +23,18 @@ struct DamagedCheckpoint : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// A sound checkpoint that a newer program wrote: not damage, and nothing to throw away.
+struct NewerCheckpoint : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 // What stands at the end of a checkpoint with these bytes before it.
 std::uint64_t checkpoint_checksum(std::span<const std::byte> bytes);
 
 std::vector<std::byte> encode(const engine::State& state);
 
-// Throws DamagedCheckpoint unless every bit is as encode() wrote it.
+// Throws DamagedCheckpoint unless every bit is as encode() wrote it, NewerCheckpoint if a newer
+// program's did.
 engine::State decode(std::span<const std::byte> bytes);
 
 }  // namespace haff::campaign

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "campaign/base/job_text.hpp"
+#include "campaign/state/energy.hpp"
 #include "campaign/state/model.hpp"
 #include "engine/simulation.hpp"
 #include "engine/soundness.hpp"
@@ -30,7 +31,8 @@ std::optional<std::string> contradiction(const engine::State& state,
     return fmt::format("it holds the state after {} collisions, which is not tau = {}",
                        state.collisions, checkpoint.tau);
   if (mixture_in(state) != mixture_of(job)) return "it holds a gas of other species";
-  return unsoundness(state);
+  if (auto wrong = unsoundness(state)) return wrong;
+  return energy_contradiction(state, job, {});
 }
 
 }  // namespace
@@ -38,6 +40,17 @@ std::optional<std::string> contradiction(const engine::State& state,
 engine::State restore(const schema::Checkpoint& checkpoint, const schema::Job& job) {
   engine::State state = decode(checkpoint.state);
   if (const auto wrong = contradiction(state, checkpoint, job)) throw DamagedCheckpoint(*wrong);
+  return state;
+}
+
+std::optional<engine::State> stored_state(const schema::Reader& store, std::int64_t job_id,
+                                          const schema::Job& job) {
+  const auto checkpoint = store.checkpoint(job_id);
+  if (!checkpoint) return std::nullopt;
+  engine::State state = restore(*checkpoint, job);
+  // Read after the checkpoint: of a job that is being run there may be more by now, never less.
+  if (const auto wrong = energy_contradiction(state, job, store.samples(job_id)))
+    throw DamagedCheckpoint(*wrong);
   return state;
 }
 
@@ -50,13 +63,15 @@ std::optional<engine::State> newest_state(const schema::Reader& store, std::int6
                     job_id, describe(job), why.what()));
   };
   try {
-    const auto checkpoint = store.checkpoint(job_id);
-    if (!checkpoint) return std::nullopt;
-    return restore(*checkpoint, job);
+    return stored_state(store, job_id, job);
   } catch (const schema::Damage& damage) {
     throw damaged(damage);
   } catch (const DamagedCheckpoint& damage) {
     throw damaged(damage);
+  } catch (const NewerCheckpoint& newer) {
+    throw NewerCheckpoint(
+        fmt::format("the state of job {} ({}) was written by a newer program: {}; update campaign",
+                    job_id, describe(job), newer.what()));
   }
 }
 

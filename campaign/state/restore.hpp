@@ -7,11 +7,16 @@
 namespace haff::campaign {
 
 // The state of the job. Throws DamagedCheckpoint if it does not decode, is not a state of this
-// job, or cannot be one of hard spheres: such a state is never used.
+// job, or cannot be one of hard spheres with no more energy than was put in: such a state is never
+// used. NewerCheckpoint if a newer program wrote it.
 engine::State restore(const schema::Checkpoint& checkpoint, const schema::Job& job);
 
-// The newest state of a job in the store, nothing if there is none. Throws DamagedCheckpoint with
-// a message that names the job and what to do.
+// The newest state of a job in the store, held against its samples; nothing if there is none.
+// Throws schema::Damage or what restore() throws, with the bare reason.
+std::optional<engine::State> stored_state(const schema::Reader& store, std::int64_t job_id,
+                                          const schema::Job& job);
+
+// The same, with a message that names the job and what to do.
 std::optional<engine::State> newest_state(const schema::Reader& store, std::int64_t job_id,
                                           const schema::Job& job);
 

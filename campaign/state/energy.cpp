@@ -1,0 +1,84 @@
+#include "campaign/state/energy.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "campaign/state/model.hpp"
+#include "engine/mixture.hpp"
+#include "engine/simulation.hpp"
+
+namespace haff::campaign {
+namespace {
+
+// A sample and a checkpoint at the same tau sum the same velocities; the order of the sum may
+// differ between two machines or versions. [relative]
+constexpr double energy_rounding = 1e-11;
+
+// A thermostat's noise puts its energy in at random: a gas of two particles may well get twice the
+// mean, none gets a hundred times that.
+constexpr double most_heat = 100;
+
+// The most energy that a gas can have had put in until then, as total_energy() counts. [E(0)]
+double energy_put_in(const engine::State& state, const schema::Job& job) {
+  const engine::Model model = model_of(job);
+  const auto thermostat = model.effects.find("thermostat");
+  const double heat =
+      thermostat == model.effects.end() ? 0 : most_heat * thermostat->second.at("rate") * state.time;
+  return 2.0 / job.d * (1 + elastic_drift + heat);
+}
+
+}  // namespace
+
+double total_energy(const schema::Sample& sample, const schema::Job& job) {
+  return *sample.temperature +
+         sample.rotational_temperature.value_or(0) * axes_of_rotation(job.d) / job.d;
+}
+
+double total_energy(const engine::State& state, const schema::Job& job) {
+  const auto mixture = mixture_in(state);
+  const auto mass_of = [&](std::uint32_t id) { return mixture ? mixture->mass_of(id) : 1; };
+  double sum = 0;
+  for (std::size_t i = 0; i < state.id.size(); ++i) {
+    const auto& v = state.velocity[i];
+    sum += mass_of(state.id[i]) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  }
+  const engine::Model model = model_of(job);
+  const auto roughness = model.effects.find("roughness");
+  const auto spin = state.memory.find("spin");
+  if (roughness != model.effects.end() && spin != state.memory.end())
+    for (std::size_t i = 0; i < spin->second.size(); ++i)
+      sum += mass_of(static_cast<std::uint32_t>(i / 3)) * roughness->second.at("q") *
+             spin->second[i] * spin->second[i];
+  const double components = static_cast<double>(job.d) * state.particles();
+  return std::ldexp(sum / components, -2 * state.exponent);
+}
+
+bool is_heated(const schema::Job& job) {
+  return job.effects.find("\"thermostat\"") != std::string::npos;
+}
+
+std::optional<std::string> energy_contradiction(const engine::State& state, const schema::Job& job,
+                                                const std::vector<schema::Sample>& samples) {
+  const double energy = total_energy(state, job);
+  if (!(energy >= 0 && energy <= energy_put_in(state, job)))
+    return fmt::format("the state after {} collisions has temperature {:.17g}, more than was ever "
+                       "put in",
+                       state.collisions, energy);
+  for (const schema::Sample& sample : samples) {
+    if (!sample.temperature) continue;
+    const std::int64_t collisions = engine::collisions_at(sample.tau, job.particles);
+    if (collisions != state.collisions && is_heated(job)) continue;
+    const double excess = energy / total_energy(sample, job) - 1;
+    const bool agrees = collisions < state.collisions   ? excess <= energy_rounding
+                        : collisions > state.collisions ? excess >= -energy_rounding
+                                                        : std::abs(excess) <= energy_rounding;
+    if (agrees) continue;
+    return fmt::format("the state after {} collisions has temperature {:.17g}, the sample at tau = "
+                       "{} {:.17g}",
+                       state.collisions, energy, sample.tau, total_energy(sample, job));
+  }
+  return std::nullopt;
+}
+
+}  // namespace haff::campaign
