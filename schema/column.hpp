@@ -37,8 +37,9 @@ std::int64_t integer(const SQLite::Statement& row, const char* column,
 double real(const SQLite::Statement& row, const char* column);  // finite
 double not_negative(const SQLite::Statement& row, const char* column);
 double positive(const SQLite::Statement& row, const char* column);
-std::string text(const SQLite::Statement& row, const char* column);       // printable
-std::string timestamp(const SQLite::Statement& row, const char* column);  // 2003-09-05T12:00:00.000Z
+std::string text(const SQLite::Statement& row, const char* column);  // printable
+std::string timestamp(const SQLite::Statement& row,
+                      const char* column);  // 2003-09-05T12:00:00.000Z
 
 // The same of a column that may be NULL: `read` is one of those above.
 template <class Read>

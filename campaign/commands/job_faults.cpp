@@ -95,7 +95,7 @@ void check_invariants(const Reader& store, const JobRow& row, Texts& faults) {
   const auto wrong =
       engine::violation({.closest2 = closest * closest,
                          .past_events = seen->past_events,
-                         .watchdog_trips = seen->watchdog_trips,
+                         .unresolved_collisions = seen->watchdog_trips,
                          .energy_mismatch = seen->energy_mismatch,
                          .momentum_removed = seen->momentum_removed},
                         engine::allowed_overlap(row.job.n, slowest_period, row.job.d));
@@ -104,7 +104,8 @@ void check_invariants(const Reader& store, const JobRow& row, Texts& faults) {
   if (static_cast<double>(seen->past_events) > past_events_per_collision * collisions + 1)
     faults.push_back(
         fmt::format("{} events lay in the past when their turn came", seen->past_events));
-  if (row.status == schema::Status::done && seen->watchdog_trips >= engine::trips_of_a_collapse)
+  if (row.status == schema::Status::done &&
+      seen->watchdog_trips >= engine::unresolved_collisions_of_a_collapse)
     faults.push_back(fmt::format("done, but the watchdog tripped {} times", seen->watchdog_trips));
 }
 

@@ -227,8 +227,8 @@ engine::State decode(std::span<const std::byte> bytes) {
     throw DamagedCheckpoint("checkpoint fails its checksum");
   const auto found = reader.get<std::uint32_t>();
   if (found > version)
-    throw NewerCheckpoint(
-        fmt::format("checkpoint is of format {}, this program knows those up to {}", found, version));
+    throw NewerCheckpoint(fmt::format(
+        "checkpoint is of format {}, this program knows those up to {}", found, version));
   if (found < 1) throw DamagedCheckpoint("checkpoint is of format 0, which never was");
   const auto table = read_table(reader, reader.get<std::uint32_t>());
   if (!reader.at_end()) throw DamagedCheckpoint("checkpoint is longer than its fields");

@@ -23,8 +23,9 @@ constexpr double most_heat = 100;
 double energy_put_in(const engine::State& state, const schema::Job& job) {
   const engine::Model model = model_of(job);
   const auto thermostat = model.effects.find("thermostat");
-  const double heat =
-      thermostat == model.effects.end() ? 0 : most_heat * thermostat->second.at("rate") * state.time;
+  const double heat = thermostat == model.effects.end()
+                          ? 0
+                          : most_heat * thermostat->second.at("rate") * state.time;
   return 2.0 / job.d * (1 + elastic_drift + heat);
 }
 
@@ -62,9 +63,10 @@ std::optional<std::string> energy_contradiction(const engine::State& state, cons
                                                 const std::vector<schema::Sample>& samples) {
   const double energy = total_energy(state, job);
   if (!(energy >= 0 && energy <= energy_put_in(state, job)))
-    return fmt::format("the state after {} collisions has temperature {:.17g}, more than was ever "
-                       "put in",
-                       state.collisions, energy);
+    return fmt::format(
+        "the state after {} collisions has temperature {:.17g}, more than was ever "
+        "put in",
+        state.collisions, energy);
   for (const schema::Sample& sample : samples) {
     if (!sample.temperature) continue;
     const std::int64_t collisions = engine::collisions_at(sample.tau, job.particles);
@@ -74,9 +76,10 @@ std::optional<std::string> energy_contradiction(const engine::State& state, cons
                         : collisions > state.collisions ? excess >= -energy_rounding
                                                         : std::abs(excess) <= energy_rounding;
     if (agrees) continue;
-    return fmt::format("the state after {} collisions has temperature {:.17g}, the sample at tau = "
-                       "{} {:.17g}",
-                       state.collisions, energy, sample.tau, total_energy(sample, job));
+    return fmt::format(
+        "the state after {} collisions has temperature {:.17g}, the sample at tau = "
+        "{} {:.17g}",
+        state.collisions, energy, sample.tau, total_energy(sample, job));
   }
   return std::nullopt;
 }
