@@ -1,5 +1,6 @@
 // Profiles and fields: written with the samples beside them, never changed, read back with every
 // bit, averaged over realizations.
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -120,5 +121,27 @@ TEST_CASE("series that differ in when profiles are taken are not averaged togeth
     CHECK(means.next() == Row{5.0, std::int64_t{1}});
     CHECK(means.next() == Row{10.0, std::int64_t{1}});
     CHECK_FALSE(means.next());
+  }
+}
+
+TEST_CASE("a field that does not hold what its cells say is damage") {
+  const TemporaryFolder folder;
+  Store store = Store::create(folder / "a.db");
+  store.add(plan({job_with_profiles()}));
+  equilibrate(store);
+  const Claim claim = *store.claim(me, "test");
+  store.commit(claim.lease, {.fields = {velocity()}});
+  CHECK(store.field(claim.lease.job_id, "velocity", 10).has_value());
+  CHECK(store.fields(claim.lease.job_id).size() == 1);
+  SQLite::Database vandal((folder / "a.db").string(), SQLite::OPEN_READWRITE);
+  for (const char* change : {"cells = 1", "cells = 68", "cells = 4611686018427387904",
+                             "components = 1", "data = x'0000000000000000'", "box = -1"}) {
+    CAPTURE(change);
+    vandal.exec("SAVEPOINT before");
+    vandal.exec(std::string("UPDATE fields SET ") + change);
+    vandal.exec("RELEASE before");
+    CHECK_THROWS_AS(store.field(claim.lease.job_id, "velocity", 10), Damage);
+    vandal.exec("DELETE FROM fields");
+    store.commit(claim.lease, {.fields = {velocity()}});
   }
 }

@@ -95,7 +95,7 @@ TEST_CASE("a truncated chunk is found") {
 TEST_CASE("a missing chunk is found") {
   Vandal vandal;
   vandal.sqlite.exec("DELETE FROM checkpoint_chunks WHERE position = 0");
-  CHECK(vandal.complaint() == vandal.damaged("chunk 0 is missing"));
+  CHECK(vandal.complaint() == vandal.damaged("it holds 1000 bytes of 16778216"));
   vandal.sqlite.exec("DELETE FROM checkpoint_chunks");
   CHECK(vandal.complaint() == vandal.damaged("it holds 0 bytes of 16778216"));
 }
@@ -143,4 +143,40 @@ TEST_CASE("a job that is not there is named") {
   const Vandal vandal;
   CHECK_THROWS_WITH_AS(vandal.store.job(99),
                        (vandal.store.path().string() + ": there is no job 99").c_str(), StoreError);
+}
+
+// Text that could reach a terminal, a figure or a page, numbers that libraries would stumble over.
+TEST_CASE("what this program does not write in a row of jobs is damage, and names the column") {
+  const auto complaint = [](const std::string& change) {
+    const Vandal vandal;
+    vandal.sqlite.exec("PRAGMA ignore_check_constraints = ON");
+    vandal.sqlite.exec("PRAGMA foreign_keys = OFF");
+    SQLite::Database(vandal.store.path().string(), SQLite::OPEN_READWRITE).exec("SELECT 1");
+    SQLite::Database other(vandal.store.path().string(), SQLite::OPEN_READWRITE);
+    other.exec("PRAGMA ignore_check_constraints = ON");
+    other.exec("UPDATE jobs SET " + change);
+    try {
+      vandal.store.jobs();
+    } catch (const Damage& damage) {
+      return std::string(damage.what());
+    }
+    return std::string("no complaint");
+  };
+  for (const std::string change :
+       {"code_version = 'x' || char(10) || 'system(\"true\")'", "host = char(27) || '[2J'",
+        "error = 'a' || char(7)", "created = 'yesterday'", "d = 9007199254740992",
+        "particles = 4294967296", "particles = -1", "seed = -1", "n = 9e999", "tau_max = 1e300",
+        "sample_every = 5e-324", "effects = '[1,2'", "effects = '{\"shuffle\":5}'",
+        "effects = '{\"shuffle\":{\"every\":\"x\"}}'", "observables = '{}'", "fields_at = '[null]'",
+        "precision = char(155)"}) {
+    CAPTURE(change);
+    const std::string said = complaint(change);
+    CHECK(said.find(change.substr(0, change.find(' '))) != std::string::npos);
+  }
+}
+
+TEST_CASE("an error with control characters is stored without them") {
+  Vandal vandal;
+  vandal.store.fail({vandal.job_id, 1}, "two\nlines, \x1b[2J, \xff and µ");
+  CHECK(vandal.store.job(vandal.job_id).error == "two lines,  [2J,   and µ");
 }

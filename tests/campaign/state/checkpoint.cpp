@@ -104,3 +104,32 @@ TEST_CASE("checkpoint: disks stay disks, and are none of spheres") {
   CHECK_THROWS_WITH_AS(restore(stored, spheres), doctest::Contains("dimension 2"),
                        DamagedCheckpoint);
 }
+
+TEST_CASE("checkpoint: a state with more energy than was put in is refused") {
+  const schema::Job job{.e = 0.8, .n = 0.4, .particles = 100, .seed = 1};
+  engine::State state = engine::initial_state(job.n, job.particles, 1);
+  CHECK_NOTHROW(restore({.tau = 0, .collisions = 0, .state = encode(state)}, job));
+  for (const double factor : {1.1, 1e150, 1e300}) {
+    engine::State hot = state;
+    for (auto& v : hot.velocity)
+      for (double& component : v) component *= factor;
+    CHECK_THROWS_WITH_AS(restore({.tau = 0, .collisions = 0, .state = encode(hot)}, job),
+                         doctest::Contains("more than was ever put in"), DamagedCheckpoint);
+  }
+}
+
+TEST_CASE("checkpoint: more fields than a state can have are refused at once") {
+  engine::State state = a_state();
+  for (int k = 0; k < 100000; ++k) state.memory["m" + std::to_string(k)] = {1};
+  CHECK_THROWS_WITH_AS(decode(encode(state)), doctest::Contains("fields"), DamagedCheckpoint);
+}
+
+TEST_CASE("checkpoint: a newer program's is no damage") {
+  auto bytes = encode(a_state());
+  bytes[8] = std::byte{200};  // the version
+  bytes.resize(bytes.size() - 8);
+  const std::uint64_t sum = checkpoint_checksum(bytes);
+  bytes.resize(bytes.size() + 8);
+  std::memcpy(bytes.data() + bytes.size() - 8, &sum, sizeof sum);
+  CHECK_THROWS_AS(decode(bytes), NewerCheckpoint);
+}
