@@ -60,7 +60,7 @@ auto named(const SQLite::Statement& row, const char* column, Named&& known) {
 void must_be_countable(const Job& job, double tau_max) {
   constexpr auto most = static_cast<double>(largest_whole);
   if (tau_max / job.sample_every > most || tau_max * job.particles > most)
-    throw BadValue("the column tau_max holds a number that no run reaches");
+    throw BadValue("the columns tau_max, sample_every and particles make more than any run can do");
 }
 
 }  // namespace
