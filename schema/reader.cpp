@@ -1,3 +1,6 @@
+#include <SQLiteCpp/Backup.h>
+#include <sqlite3.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -348,6 +351,25 @@ std::vector<Outcome> Reader::preview(const std::vector<Planned>& plan) const {
 
 Query Reader::query(const std::string& sql) const {
   return {*database_, sql};
+}
+
+std::uintmax_t Reader::back_up(const std::filesystem::path& to) const {
+  database_->guarded([&] {
+    SQLite::Database copy(to.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    SQLite::Backup backup(copy, database_->sqlite());
+    while (backup.executeStep(-1) != SQLITE_DONE) {
+    }
+    copy.exec("PRAGMA journal_mode = DELETE");
+    copy.exec(R"(
+      UPDATE jobs SET
+        status = 'pending', owner_boot_id = NULL, owner_pid = NULL, owner_started = NULL,
+        renewed = NULL,
+        tau = coalesce((SELECT tau FROM checkpoints WHERE checkpoints.job_id = jobs.job_id), 0),
+        collisions = coalesce(
+          (SELECT collisions FROM checkpoints WHERE checkpoints.job_id = jobs.job_id), 0)
+      WHERE status = 'running')");
+  });
+  return std::filesystem::file_size(to);
 }
 
 std::vector<std::string> Reader::faults() const {

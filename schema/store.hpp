@@ -290,6 +290,11 @@ class Reader {
   // One SQL statement that reads. On a Store too, SQLite is told to refuse writes meanwhile.
   Query query(const std::string& sql) const;
 
+  // Copies the store to a file that is not there yet, as it is at one moment, whatever else uses
+  // it. What is copied is checked; jobs that are being run are pending in the copy. Returns its
+  // size.
+  std::uintmax_t back_up(const std::filesystem::path& to) const;
+
   // SQLite's integrity check and the foreign keys: one line a fault, none if all is sound.
   std::vector<std::string> faults() const;
 

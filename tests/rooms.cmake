@@ -14,7 +14,7 @@ set(results state)
 set(plot base)
 set(accuracy planning results plot)
 set(paper results plot)
-set(cluster planning)
+set(cluster run planning)
 set(commands run accuracy paper cluster)
 set(folders base state job run planning results plot accuracy paper cluster commands)
 

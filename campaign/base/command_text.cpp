@@ -13,12 +13,15 @@ bool is_plain(char c) {
 
 }  // namespace
 
-std::string shell_word(std::string_view word) {
-  if (word.starts_with('-')) return shell_word("./" + std::string(word));
+std::string quoted_word(std::string_view word) {
   if (!word.empty() && std::ranges::all_of(word, is_plain)) return std::string(word);
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + '\'';
+}
+
+std::string shell_word(std::string_view file) {
+  return quoted_word(file.starts_with('-') ? "./" + std::string(file) : std::string(file));
 }
 
 std::string command_text(const std::string& command, const std::filesystem::path& store) {

@@ -10,8 +10,11 @@ namespace haff::campaign {
 inline constexpr const char* default_store = "campaign.db";
 
 // A word as a POSIX shell must be given it: in single quotes where a character of it means
-// something to the shell, and with ./ before a file name that would be taken for an option.
-std::string shell_word(std::string_view word);
+// something to the shell.
+std::string quoted_word(std::string_view word);
+
+// The same for the name of a file, with ./ before one that would be taken for an option.
+std::string shell_word(std::string_view file);
 
 // "campaign run", with --store where it is not the default one. The command itself is text for a
 // shell: its words are quoted already.

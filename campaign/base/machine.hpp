@@ -5,7 +5,10 @@
 
 namespace haff::campaign {
 
-int processors();                 // that this process may use
+// That this process may use: of its affinity mask, and of the CPU quotas of its cgroups, rounded
+// up.
+int processors();
+
 schema::Memory machine_memory();  // and what a particle of a running job takes of it
 
 }  // namespace haff::campaign

@@ -14,6 +14,9 @@ namespace haff::campaign {
 namespace {
 
 constexpr int most_workers = 1024;
+constexpr int most_rounds = 1000;
+constexpr int default_rounds = 20;
+constexpr double default_put_back_every = 600;  // [s]
 constexpr int most_shards = 100'000;
 
 constexpr const char* exit_codes = R"(Exit codes:
@@ -244,6 +247,90 @@ CLI::App* add_recall(CLI::App& app, RecallOptions& options) {
   return command;
 }
 
+// A duration given as text.
+CLI::Option* add_duration(CLI::App* command, const std::string& name, double& seconds,
+                          const std::string& what) {
+  const auto set = [&seconds, name](const std::string& text) {
+    const auto value = seconds_from_text(text);
+    if (!value)
+      throw CLI::ValidationError(name,
+                                 "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
+    seconds = *value;
+  };
+  return command->add_option_function<std::string>(name, set, what)->type_name("TIME");
+}
+
+CLI::App* add_submit(CLI::App& app, SubmitOptions& options) {
+  ClusterOptions& cluster = options.cluster;
+  cluster.folder = "shards";
+  cluster.put_back_every = default_put_back_every;
+  cluster.rounds = default_rounds;
+  auto* command = app.add_subcommand("submit", "Run all that is pending on a cluster, by Slurm");
+  command->add_option("--tasks", cluster.tasks, "How many tasks, at most")
+      ->check(CLI::Range(1, most_shards))
+      ->type_name("K")
+      ->required();
+  command->add_option("--cpus", cluster.cpus, "Processors of each task, a worker for each")
+      ->check(CLI::Range(1, most_workers))
+      ->type_name("C")
+      ->capture_default_str();
+  add_duration(command, "--time", cluster.seconds, "Time limit of a task: 45m, 4h, 1d")->required();
+  command->add_option("--rounds", cluster.rounds, "How often what is left is submitted, at most")
+      ->check(CLI::Range(0, most_rounds))
+      ->type_name("R")
+      ->capture_default_str();
+  add_duration(command, "--put-back-every", cluster.put_back_every,
+               "How often a task saves its shard: a node that dies costs at most that")
+      ->default_str("10m");
+  command->add_option("--out", cluster.folder, "Folder of shards, scripts and logs")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_flag("--dry-run", options.dry_run, "Print scripts and sbatch lines; submit nothing");
+  command->add_option("--round", options.round)->group("");  // what the job after a round gives
+  command->add_option("SBATCH", cluster.sbatch_options, "After --: further options of sbatch")
+      ->type_name("OPTION...");
+  command->footer(examples(R"(  campaign submit --tasks 40 --cpus 8 --time 4h
+  campaign submit --tasks 40 --cpus 8 --time 4h --dry-run
+  campaign submit --tasks 40 --cpus 8 --time 4h -- -p long -A phys
+  campaign status                              which shard is where, and how far
+  campaign figures                             with what has come home so far
+
+A task works on a disk of its node ($SLURM_TMPDIR, $TMPDIR or /tmp), stops in time before its limit
+and on Slurm's signals, and puts its shard back. When all tasks have ended, a job merges the shards;
+if work is left, or targets need more seeds, it submits the next round.)"));
+  return command;
+}
+
+CLI::App* add_task(CLI::App& app, TaskOptions& options) {
+  options.workers = processors();
+  options.put_back_every = default_put_back_every;
+  auto* command = app.add_subcommand("task", "Work on one shard, as a task of a batch system");
+  command->add_option("SHARD", options.shard, "The shard, as campaign split wrote it")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--workers", options.workers, "Worker processes")
+      ->check(CLI::Range(1, most_workers))
+      ->type_name("K")
+      ->capture_default_str();
+  const auto set_max_time = [&options](const std::string& text) {
+    options.max_seconds = seconds_from_text(text);
+    if (!options.max_seconds)
+      throw CLI::ValidationError("--max-time",
+                                 "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
+  };
+  command
+      ->add_option_function<std::string>("--max-time", set_max_time,
+                                         "Stop computing after this time")
+      ->type_name("TIME");
+  add_duration(command, "--put-back-every", options.put_back_every, "How often the shard is saved")
+      ->default_str("10m");
+  command->footer(examples(R"(  campaign task --workers 8 --max-time 3h50m shards/shard-001.db
+
+The shard is copied to $SLURM_TMPDIR, $TMPDIR or /tmp, run there, and put back by copying and
+renaming, from time to time and at the end; signals stop it in order.)"));
+  return command;
+}
+
 CLI::App* add_worker(CLI::App& app, WorkerCommand& options) {
   auto* command = app.add_subcommand("worker", "")->group("");  // not shown
   command->add_option("DESCRIPTOR", options.report_descriptor)->required();
@@ -299,6 +386,8 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   SplitOptions split;
   MergeOptions merge;
   RecallOptions recall;
+  SubmitOptions submit;
+  TaskOptions task;
   WorkerCommand worker;
   const CLI::App* plan_command = add_plan(app, plan);
   const CLI::App* run_command = add_run(app, run);
@@ -312,6 +401,8 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   const CLI::App* split_command = add_split(app, split);
   const CLI::App* merge_command = add_merge(app, merge);
   const CLI::App* recall_command = add_recall(app, recall);
+  const CLI::App* submit_command = add_submit(app, submit);
+  const CLI::App* task_command = add_task(app, task);
   const CLI::App* worker_command = add_worker(app, worker);
 
   try {
@@ -323,7 +414,8 @@ Parsed parse_command_line(int argc, const char* const* argv) {
     return app.exit(error) == 0 ? exit_complete : exit_bad_input;
   }
 
-  line.store = plan.store = run.store = split.store = merge.store = recall.store = store;
+  line.store = plan.store = run.store = split.store = merge.store = recall.store =
+      submit.cluster.store = store;
   if (plan_command->parsed()) line.command = plan;
   if (run_command->parsed()) line.command = run;
   if (status_command->parsed()) line.command = status;
@@ -336,6 +428,8 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   if (split_command->parsed()) line.command = split;
   if (merge_command->parsed()) line.command = merge;
   if (recall_command->parsed()) line.command = recall;
+  if (submit_command->parsed()) line.command = submit;
+  if (task_command->parsed()) line.command = task;
   if (worker_command->parsed()) line.command = worker;
   return line;
 }

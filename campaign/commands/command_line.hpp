@@ -14,6 +14,7 @@
 #include "campaign/commands/recall.hpp"
 #include "campaign/commands/run.hpp"
 #include "campaign/commands/split.hpp"
+#include "campaign/commands/submit.hpp"
 #include "campaign/paper/figures.hpp"
 
 namespace haff::campaign {
@@ -35,9 +36,10 @@ struct WorkerCommand {  // what `run` starts; not for people
   std::optional<double> until;  // on the monotonic clock [s]
 };
 
-using Command = std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest,
-                             CostRequest, ExportCommand, VerifyCommand, RetryCommand, SplitOptions,
-                             MergeOptions, RecallOptions, WorkerCommand>;
+using Command =
+    std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest, CostRequest,
+                 ExportCommand, VerifyCommand, RetryCommand, SplitOptions, MergeOptions,
+                 RecallOptions, SubmitOptions, TaskOptions, WorkerCommand>;
 
 struct CommandLine {
   std::filesystem::path store;

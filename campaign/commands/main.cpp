@@ -53,6 +53,8 @@ struct CommandDispatcher {
   int operator()(const SplitOptions& options) const { return split(options); }
   int operator()(const MergeOptions& options) const { return merge(options); }
   int operator()(const RecallOptions& options) const { return recall(options); }
+  int operator()(const SubmitOptions& options) const { return submit(options); }
+  int operator()(const TaskOptions& options) const { return task(options); }
   int operator()(const WorkerCommand& command) const {
     std::optional<Deadline> deadline;
     if (command.until) deadline = Deadline(Deadline::duration(*command.until));

@@ -18,6 +18,7 @@
 #include "campaign/base/output.hpp"
 #include "campaign/base/printable.hpp"
 #include "campaign/base/text_table.hpp"
+#include "campaign/cluster/shards.hpp"
 #include "campaign/results/series.hpp"
 #include "campaign/run/abandoned.hpp"
 
@@ -38,6 +39,7 @@ struct Picture {
   std::vector<Series> series;
   std::vector<TargetProgress> targets;
   std::optional<schema::Invariants> worst;  // of all runs; nothing before the first
+  std::vector<ShardStatus> shards;
 };
 
 // The largest overlap, mismatch and momentum of all runs, and all counts together.
@@ -56,9 +58,14 @@ std::optional<schema::Invariants> worst_invariants(const Reader& store) {
 }
 
 Picture look(const Reader& store) {
-  return {store.path(),           store.summary(),  store.jobs(),
-          store.running(),        series_of(store), progress_of(store, store.targets()),
-          worst_invariants(store)};
+  return {store.path(),
+          store.summary(),
+          store.jobs(),
+          store.running(),
+          series_of(store),
+          progress_of(store, store.targets()),
+          worst_invariants(store),
+          shard_states(store)};
 }
 
 double fraction_done(const schema::Summary& summary) {
@@ -126,6 +133,23 @@ std::string running_table(const std::vector<schema::RunningJob>& running) {
                fmt::format("{:.1f}", job.progress.tau), number_text(job.tau_max),
                std::to_string(job.owner.pid), job.owner.host,
                is_owner_dead(job) ? "is gone; the next run takes the job back" : ""});
+  return table.text();
+}
+
+std::string shards_table(const std::vector<ShardStatus>& shards) {
+  TextTable table({{"shard", Align::left},
+                   {"jobs"},
+                   {"still lent"},
+                   {"done"},
+                   {"CPU time"},
+                   {"merged", Align::left},
+                   {"Slurm", Align::left},
+                   {"where", Align::left}});
+  for (const ShardStatus& each : shards)
+    table.add({each.shard.name, count_text(each.shard.jobs), count_text(each.shard.unfinished),
+               each.fraction ? fmt::format("{:.1f} %", 100 * *each.fraction) : no_value,
+               duration_text(each.shard.cpu_seconds), each.shard.merged.value_or(no_value),
+               each.slurm.empty() ? no_value : each.slurm, each.where});
   return table.text();
 }
 
@@ -217,6 +241,7 @@ void print_picture(const Picture& picture) {
   say("{}\n", cpu_time_text(picture));
   if (picture.worst) say("{}\n", invariants_text(*picture.worst));
   if (!picture.running.empty()) say("{}\n", running_table(picture.running));
+  if (!picture.shards.empty()) say("{}\n", shards_table(picture.shards));
   print_findings(picture);
 }
 
@@ -261,6 +286,19 @@ ordered_json series_json(const Series& series) {
                  {"tau_c_se", or_null(series.tau_c_se)},
                  {"published_tau_c", or_null(series.published_tau_c)}});
   return object;
+}
+
+ordered_json shard_json(const ShardStatus& each) {
+  return {{"shard", each.shard.name},
+          {"path", each.shard.path.string()},
+          {"jobs", each.shard.jobs},
+          {"still_lent", each.shard.unfinished},
+          {"fraction_done", or_null(each.fraction)},
+          {"cpu_seconds", each.shard.cpu_seconds},
+          {"lent", each.shard.lent},
+          {"merged", or_null(each.shard.merged)},
+          {"returned", or_null(each.shard.returned)},
+          {"slurm", each.slurm.empty() ? ordered_json(nullptr) : ordered_json(each.slurm)}};
 }
 
 ordered_json prediction_json(const std::optional<schema::Prediction>& prediction) {
@@ -321,6 +359,7 @@ ordered_json picture_json(const Picture& picture) {
        summary.remaining_cpu_seconds + cpu_seconds_unplanned(picture.targets)},
       {"invariants", picture.worst ? invariants_json(*picture.worst) : ordered_json(nullptr)},
       {"running", ordered_json::array()},
+      {"shards", ordered_json::array()},
       {"series", ordered_json::array()},
       {"targets", ordered_json::array()},
       {"failures", ordered_json::array()},
@@ -328,6 +367,7 @@ ordered_json picture_json(const Picture& picture) {
       {"next", next_commands(picture)},
   };
   for (const auto& job : picture.running) object["running"].push_back(running_json(job));
+  for (const ShardStatus& each : picture.shards) object["shards"].push_back(shard_json(each));
   for (const Series& series : picture.series) object["series"].push_back(series_json(series));
   for (const TargetProgress& target : picture.targets)
     object["targets"].push_back(target_json(target));

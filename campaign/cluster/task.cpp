@@ -1,0 +1,232 @@
+#include "campaign/cluster/task.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "campaign/base/signals.hpp"
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto look_every = 100ms;
+
+// A folder of the task's own on a disk of its node, gone with the task.
+class Scratch {
+ public:
+  Scratch() {
+    for (const char* variable : {"SLURM_TMPDIR", "TMPDIR"})
+      if (const char* folder = std::getenv(variable); folder != nullptr && make_in(folder)) return;
+    if (!make_in("/tmp"))
+      throw std::runtime_error(
+          "no scratch folder can be made in $SLURM_TMPDIR, $TMPDIR or /tmp; set TMPDIR to a folder "
+          "on a disk of the node");
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    if (!kept_) fs::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  const fs::path& path() const { return path_; }
+  void keep() { kept_ = true; }
+
+ private:
+  bool make_in(const fs::path& folder) {
+    std::string name = (folder / "campaign-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) return false;
+    path_ = name;
+    return true;
+  }
+
+  fs::path path_;
+  bool kept_ = false;
+};
+
+// This process, so that no two hosts or times give the same.
+std::string signature() {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  return fmt::format("{} process {} since {}", host.data(), getpid(),
+                     std::chrono::system_clock::now().time_since_epoch().count());
+}
+
+// Says which task works on a shard. A task that was requeued may still live where nobody sees it,
+// on a node that was cut off: the newer one takes over, and the older one must not put back less.
+class Claimed {
+ public:
+  explicit Claimed(const fs::path& shard) : file_(shard.string() + ".task"), mine_(signature()) {
+    std::ofstream(file_) << mine_ << '\n';
+    if (!still())
+      throw std::runtime_error(file_.string() + ": cannot be written; is the disk full?");
+  }
+  ~Claimed() {
+    std::error_code ignored;
+    if (still()) fs::remove(file_, ignored);
+  }
+  Claimed(const Claimed&) = delete;
+  Claimed& operator=(const Claimed&) = delete;
+
+  bool still() const {
+    std::ifstream file(file_);
+    std::string line;
+    std::getline(file, line);
+    return line == mine_;
+  }
+
+ private:
+  fs::path file_;
+  std::string mine_;
+};
+
+void flush_to_disk(const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  fsync(file);
+  close(file);
+}
+
+// The shard as it is at this moment, in place of the one in the user's folder.
+void put_back(const fs::path& working, const fs::path& shard) {
+  const fs::path part = fmt::format("{}.part-{}", shard.string(), getpid());
+  std::error_code ignored;
+  fs::remove(part, ignored);
+  try {
+    schema::Reader(working).back_up(part);
+    flush_to_disk(part);
+    fs::rename(part, shard);
+    flush_to_disk(shard.parent_path());
+  } catch (...) {
+    fs::remove(part, ignored);
+    throw;
+  }
+}
+
+// `campaign run` on the copy: the same program, as a child that dies with this process.
+pid_t start_run(const fs::path& store, const TaskOptions& options) {
+  std::vector<std::string> words{"campaign",     "run",       "--store",
+                                 store.string(), "--workers", std::to_string(options.workers)};
+  if (options.max_seconds) {
+    words.emplace_back("--max-time");
+    words.push_back(fmt::format("{:.0f}s", *options.max_seconds));
+  }
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const pid_t parent = getpid();
+  const pid_t id = fork();
+  if (id < 0)
+    throw std::runtime_error(fmt::format("cannot start the run: {}", std::strerror(errno)));
+  if (id > 0) return id;
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(1);
+  // What it prints at its end speaks of the copy, which is gone by then.
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  dup2(nowhere, STDOUT_FILENO);
+  execv("/proc/self/exe", arguments.data());
+  _exit(127);
+}
+
+class Task {
+ public:
+  explicit Task(const TaskOptions& options)
+      : options_(options),
+        shard_(fs::absolute(options.shard)),
+        claimed_(shard_),
+        working_(scratch_.path() / "shard.db") {}
+
+  int work() {
+    fs::copy_file(shard_, working_);
+    spdlog::info("{} is worked on in {}", shard_.string(), scratch_.path().string());
+    const int exit_code = run();
+    try {
+      if (!may_put_back()) return exit_code;
+      put_back(working_, shard_);
+    } catch (const std::exception&) {
+      scratch_.keep();
+      spdlog::error("what was computed is in {}, until the node clears it", working_.string());
+      throw;
+    }
+    spdlog::info("{} is put back", shard_.string());
+    return exit_code;
+  }
+
+ private:
+  // Waits for the run; passes signals on and puts the shard back from time to time.
+  int run() {
+    const pid_t id = start_run(working_, options_);
+    auto put_back_at = Clock::now();
+    int signals_passed = 0;
+    int status = 0;
+    for (;;) {
+      const pid_t ended = waitpid(id, &status, WNOHANG);
+      if (ended == id || (ended < 0 && errno == ECHILD)) break;
+      for (; signals_passed < stop_signals(); ++signals_passed) kill(id, SIGTERM);
+      const std::chrono::duration<double> since = Clock::now() - put_back_at;
+      if (signals_passed == 0 && since.count() > options_.put_back_every) {
+        put_back_meanwhile(id);
+        put_back_at = Clock::now();
+      }
+      std::this_thread::sleep_for(look_every);
+    }
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  }
+
+  // A copy that fails costs nothing yet: the next one may succeed.
+  void put_back_meanwhile(pid_t run) {
+    if (!may_put_back()) {
+      kill(run, SIGTERM);
+      return;
+    }
+    try {
+      put_back(working_, shard_);
+    } catch (const std::exception& error) {
+      spdlog::warn("{} could not be put back: {}", shard_.string(), error.what());
+    }
+  }
+
+  bool may_put_back() const {
+    if (claimed_.still()) return true;
+    spdlog::warn("{}: another task has begun to work on it; this one stops", shard_.string());
+    return false;
+  }
+
+  const TaskOptions& options_;
+  fs::path shard_;
+  Claimed claimed_;
+  Scratch scratch_;
+  fs::path working_;
+};
+
+}  // namespace
+
+int work_on_shard(const TaskOptions& options) {
+  note_stop_signals();
+  if (!fs::exists(options.shard))
+    throw std::runtime_error(options.shard.string() +
+                             ": there is no such shard; campaign split writes shards");
+  return Task(options).work();
+}
+
+}  // namespace haff::campaign
