@@ -34,8 +34,9 @@ MergeOutcome merge(schema::Store& store, const std::filesystem::path& path) {
   must_be_sound(shard);
   // An equilibration comes home before the jobs that start from it.
   auto rows = shard.jobs();
-  std::ranges::stable_partition(
-      rows, [](const schema::JobRow& row) { return row.job.kind == schema::Kind::equilibration; });
+  std::stable_partition(rows.begin(), rows.end(), [](const schema::JobRow& row) {
+    return row.job.kind == schema::Kind::equilibration;
+  });
   for (const schema::JobRow& row : rows) {
     shard.checkpoint(row.job_id);  // throws Damage if a bit of the state is wrong
     const schema::Arrival arrival = store.take_over(shard, row.job_id, outcome.shard);
