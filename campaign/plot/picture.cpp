@@ -66,8 +66,9 @@ void draw_picture(const Plot& plot, const std::filesystem::path& file, PictureFo
 void draw_both(const Plot& plot, const std::filesystem::path& stem, OutputFiles& files) {
   for (const auto& [ending, format] :
        {std::pair{".svg", PictureFormat::svg}, std::pair{".png", PictureFormat::png}})
-    files.attempt(stem.string() + ending,
-                  [&](const std::filesystem::path& file) { draw_picture(plot, file, format); });
+    files.attempt(stem.string() + ending, [&, format = format](const std::filesystem::path& file) {
+      draw_picture(plot, file, format);
+    });
 }
 
 }  // namespace haff::campaign
