@@ -37,10 +37,10 @@ constexpr std::size_t thinned[] = {2, 5};
 
 // ---- which quantities -------------------------------------------------------------------------
 
-std::optional<double> latest_correlation(const std::vector<const PilotSeries*>& gas) {
+std::optional<double> latest_correlation(const std::vector<const FinishedSeries*>& gas) {
   std::optional<double> latest;
-  for (const PilotSeries* series : gas)
-    for (const schema::Profile& profile : series->pilots.front().correlations)
+  for (const FinishedSeries* series : gas)
+    for (const schema::Profile& profile : series->runs.front().correlations)
       if (profile.tau <= correlation_tau && profile.tau > latest.value_or(0)) latest = profile.tau;
   return latest;
 }
@@ -49,16 +49,16 @@ bool decays(const schema::Job& job) {
   return cools_by_haff(job) && *job.e < 1;
 }
 
-bool has_target(const std::vector<const PilotSeries*>& gas, const schema::Target& target) {
-  return std::ranges::any_of(gas, [&](const PilotSeries* series) {
+bool has_target(const std::vector<const FinishedSeries*>& gas, const schema::Target& target) {
+  return std::ranges::any_of(gas, [&](const FinishedSeries* series) {
     return schema::series_identity(series->job) == target.series;
   });
 }
 
-bool has_tau_c(const std::vector<const PilotSeries*>& gas) {
-  return std::ranges::any_of(gas, [](const PilotSeries* series) {
-    return std::ranges::any_of(series->pilots,
-                               [](const Pilot& pilot) { return pilot.tau_c.has_value(); });
+bool has_tau_c(const std::vector<const FinishedSeries*>& gas) {
+  return std::ranges::any_of(gas, [](const FinishedSeries* series) {
+    return std::ranges::any_of(series->runs,
+                               [](const FinishedRun& run) { return run.tau_c.has_value(); });
   });
 }
 
@@ -67,7 +67,7 @@ struct Wanted {
   const std::vector<Quantity>& asked;
 };
 
-std::vector<Quantity> quantities_of(const std::vector<const PilotSeries*>& gas,
+std::vector<Quantity> quantities_of(const std::vector<const FinishedSeries*>& gas,
                                     const Wanted& wanted) {
   std::vector<Quantity> all{usual_quantity(Measure::a2), usual_quantity(Measure::a3)};
   const schema::Job& job = gas.front()->job;
@@ -92,28 +92,28 @@ std::vector<Quantity> quantities_of(const std::vector<const PilotSeries*>& gas,
 
 // ---- chance -----------------------------------------------------------------------------------
 
-std::vector<double> values_of(const Quantity& quantity, const PilotSeries& series) {
+std::vector<double> values_of(const Quantity& quantity, const FinishedSeries& series) {
   std::vector<double> values;
-  for (const Pilot& pilot : series.pilots)
-    if (const auto value = value_of(quantity, series.job, pilot)) values.push_back(*value);
+  for (const FinishedRun& run : series.runs)
+    if (const auto value = value_of(quantity, series.job, run)) values.push_back(*value);
   return values;
 }
 
 // Runs that ended before their tau_c. Those that did not are the early ones, and their mean is no
 // tau_c of the gas.
-std::size_t unfinished(const Quantity& quantity, const PilotSeries& series) {
+std::size_t unfinished(const Quantity& quantity, const FinishedSeries& series) {
   if (quantity.measure != Measure::tau_c) return 0;
-  return series.pilots.size() - values_of(quantity, series).size();
+  return series.runs.size() - values_of(quantity, series).size();
 }
 
-double mean_cpu_seconds(const Quantity& quantity, const PilotSeries& series) {
+double mean_cpu_seconds(const Quantity& quantity, const FinishedSeries& series) {
   double sum = 0;
-  for (const Pilot& pilot : series.pilots) sum += cpu_seconds(quantity, pilot);
-  return sum / static_cast<double>(series.pilots.size());
+  for (const FinishedRun& run : series.runs) sum += cpu_seconds(quantity, run);
+  return sum / static_cast<double>(series.runs.size());
 }
 
 // The target that the series was run for, if it was run for one of this quantity.
-const schema::Target* target_of(const Quantity& quantity, const PilotSeries& series,
+const schema::Target* target_of(const Quantity& quantity, const FinishedSeries& series,
                                 const std::vector<schema::Target>& targets) {
   const auto found = std::ranges::find_if(targets, [&](const schema::Target& target) {
     return quantity_of(target) == quantity && target.series == schema::series_identity(series.job);
@@ -121,7 +121,7 @@ const schema::Target* target_of(const Quantity& quantity, const PilotSeries& ser
   return found == targets.end() ? nullptr : &*found;
 }
 
-std::optional<Statistics> statistics_of(const Quantity& quantity, const PilotSeries& series,
+std::optional<Statistics> statistics_of(const Quantity& quantity, const FinishedSeries& series,
                                         const std::vector<schema::Target>& targets) {
   const auto values = values_of(quantity, series);
   if (values.empty()) return std::nullopt;
@@ -137,7 +137,7 @@ std::optional<Statistics> statistics_of(const Quantity& quantity, const PilotSer
                     .cpu_seconds = mean_cpu_seconds(quantity, series),
                     .unfinished = unfinished(quantity, series)};
   if (values.size() == 1) {
-    if (const auto blocks = error_within(quantity, series.job, series.pilots.front())) {
+    if (const auto blocks = error_within(quantity, series.job, series.runs.front())) {
       result.error = blocks->standard_error;
       result.deviation = blocks->standard_error;
       result.correlation_time = blocks->correlation_time;
@@ -170,34 +170,34 @@ schema::Job unobserved(schema::Job job) {
 
 // A condition that series of one gas may differ in, and how good it is: the more the better.
 struct Condition {
-  Cause cause;
+  SystematicEffect cause;
   void (*neutralize)(schema::Job&);
   double (*goodness)(const schema::Job&);
   std::string (*text)(const schema::Job&);
 };
 
 const Condition conditions[] = {
-    {Cause::finite_size, [](schema::Job& job) { job.particles = 0; },
+    {SystematicEffect::finite_size, [](schema::Job& job) { job.particles = 0; },
      [](const schema::Job& job) { return static_cast<double>(job.particles); },
      [](const schema::Job& job) { return "N = " + count_text(job.particles); }},
-    {Cause::equilibration, [](schema::Job& job) { job.equilibrate = 0; },
+    {SystematicEffect::equilibration, [](schema::Job& job) { job.equilibrate = 0; },
      [](const schema::Job& job) { return job.equilibrate; },
      [](const schema::Job& job) { return "equilibrate = " + number_text(job.equilibrate); }},
 };
 
 // Series that differ in the condition alone; of several with the same, the one of most
 // realizations.
-using Alternatives = std::map<double, const PilotSeries*>;  // by goodness
+using Alternatives = std::map<double, const FinishedSeries*>;  // by goodness
 
 std::vector<Alternatives> alternatives(const Condition& condition,
-                                       const std::vector<const PilotSeries*>& gas) {
+                                       const std::vector<const FinishedSeries*>& gas) {
   std::map<std::string, Alternatives> groups;
-  for (const PilotSeries* series : gas) {
+  for (const FinishedSeries* series : gas) {
     schema::Job job = unobserved(series->job);
     condition.neutralize(job);
-    const PilotSeries*& place =
+    const FinishedSeries*& place =
         groups[schema::series_identity(job)][condition.goodness(series->job)];
-    if (place == nullptr || place->pilots.size() < series->pilots.size()) place = series;
+    if (place == nullptr || place->runs.size() < series->runs.size()) place = series;
   }
   std::vector<Alternatives> all;
   all.reserve(groups.size());
@@ -206,9 +206,10 @@ std::vector<Alternatives> alternatives(const Condition& condition,
 }
 
 void add_condition_shifts(const Condition& condition, const Quantity& quantity,
-                          const std::vector<const PilotSeries*>& gas, std::vector<Shift>& shifts) {
+                          const std::vector<const FinishedSeries*>& gas,
+                          std::vector<BiasEstimate>& shifts) {
   for (const Alternatives& group : alternatives(condition, gas)) {
-    const PilotSeries& best = *group.rbegin()->second;
+    const FinishedSeries& best = *group.rbegin()->second;
     const auto reference = values_of(quantity, best);
     if (reference.size() < 2 || unfinished(quantity, best) > 0) continue;
     const Estimate better = analysis::estimate(reference);
@@ -228,13 +229,13 @@ void add_condition_shifts(const Condition& condition, const Quantity& quantity,
 }
 
 // Differences within each realization, so that what chance does to both is not in their error.
-void add_paired_shift(const Quantity& quantity, const PilotSeries& series, Cause cause,
-                      const std::string& change,
-                      const std::function<std::optional<double>(const Pilot&)>& changed,
-                      std::vector<Shift>& shifts) {
+void add_paired_shift(const Quantity& quantity, const FinishedSeries& series,
+                      SystematicEffect cause, const std::string& change,
+                      const std::function<std::optional<double>(const FinishedRun&)>& changed,
+                      std::vector<BiasEstimate>& shifts) {
   std::vector<double> differences;
-  for (const Pilot& pilot : series.pilots) {
-    const auto as_it_is = value_of(quantity, series.job, pilot), other = changed(pilot);
+  for (const FinishedRun& run : series.runs) {
+    const auto as_it_is = value_of(quantity, series.job, run), other = changed(run);
     if (as_it_is && other) differences.push_back(*other - *as_it_is);
   }
   if (differences.size() < 2) return;
@@ -248,8 +249,8 @@ void add_paired_shift(const Quantity& quantity, const PilotSeries& series, Cause
                     .error = shift.standard_error});
 }
 
-void add_sampling_shifts(const Quantity& quantity, const PilotSeries& series,
-                         std::vector<Shift>& shifts) {
+void add_sampling_shifts(const Quantity& quantity, const FinishedSeries& series,
+                         std::vector<BiasEstimate>& shifts) {
   const schema::Job& job = series.job;
   if (quantity.measure == Measure::correlation) return;
   for (const std::size_t every : thinned) {
@@ -257,28 +258,29 @@ void add_sampling_shifts(const Quantity& quantity, const PilotSeries& series,
     const bool has_window = quantity.from < quantity.to;
     if (has_window && interval > (quantity.to - quantity.from) / 2) continue;
     add_paired_shift(
-        quantity, series, Cause::sampling,
+        quantity, series, SystematicEffect::sampling,
         fmt::format("a sample every {:g}, not {:g}", interval, job.sample_every),
-        [&](const Pilot& pilot) { return value_of(quantity, job, pilot, every); }, shifts);
+        [&](const FinishedRun& run) { return value_of(quantity, job, run, every); }, shifts);
   }
   if (quantity.from >= quantity.to) return;
   const Quantity half = middle_half(quantity);
   add_paired_shift(
-      quantity, series, Cause::averaging,
+      quantity, series, SystematicEffect::averaging,
       fmt::format("mean over tau {:g} to {:g}", half.from, half.to),
-      [&](const Pilot& pilot) { return value_of(half, job, pilot); }, shifts);
+      [&](const FinishedRun& run) { return value_of(half, job, run); }, shifts);
 }
 
 // The same states on wider cells: those that are stored, at the end of the runs.
-void add_mesh_shift(Quantity quantity, const PilotSeries& series, std::vector<Shift>& shifts) {
-  quantity.from = quantity.to = series.pilots.front().mesh->usual.tau;
+void add_mesh_shift(Quantity quantity, const FinishedSeries& series,
+                    std::vector<BiasEstimate>& shifts) {
+  quantity.from = quantity.to = series.runs.front().mesh->usual.tau;
   std::vector<double> values, differences;
-  for (const Pilot& pilot : series.pilots) {
-    if (!pilot.mesh || pilot.mesh->usual.tau != quantity.to) continue;
+  for (const FinishedRun& run : series.runs) {
+    if (!run.mesh || run.mesh->usual.tau != quantity.to) continue;
     const auto at_r = [&](const schema::Profile& profile) {
       return analysis::interpolated(profile.x, profile.value, quantity.r);
     };
-    const auto usual = at_r(pilot.mesh->usual), wide = at_r(pilot.mesh->wide);
+    const auto usual = at_r(run.mesh->usual), wide = at_r(run.mesh->wide);
     if (!usual || !wide) continue;
     values.push_back(*usual);
     differences.push_back(*wide - *usual);
@@ -287,7 +289,7 @@ void add_mesh_shift(Quantity quantity, const PilotSeries& series, std::vector<Sh
   const Estimate shift = analysis::estimate(differences);
   shifts.push_back({.quantity = quantity,
                     .job = series.job,
-                    .cause = Cause::mesh,
+                    .cause = SystematicEffect::mesh,
                     .change = fmt::format("cells of {:g} sigma, not 1, at tau {:g}: of {:.1e}",
                                           wide_cell, quantity.to, analysis::estimate(values).mean),
                     .value = shift.mean,
@@ -298,10 +300,11 @@ void add_mesh_shift(Quantity quantity, const PilotSeries& series, std::vector<Sh
 
 // Of those with the most particles in all realizations together the noise is least; of equals the
 // largest gas is nearest to an infinite one. Nothing if none has two values, or each run its tau_c.
-const PilotSeries* quietest(const Quantity& quantity, const std::vector<const PilotSeries*>& gas) {
-  const PilotSeries* best = nullptr;
+const FinishedSeries* quietest(const Quantity& quantity,
+                               const std::vector<const FinishedSeries*>& gas) {
+  const FinishedSeries* best = nullptr;
   std::pair<double, std::uint32_t> most;
-  for (const PilotSeries* series : gas) {
+  for (const FinishedSeries* series : gas) {
     const std::size_t realizations = values_of(quantity, *series).size();
     if (realizations < 2 || unfinished(quantity, *series) > 0) continue;
     const std::pair here(
@@ -315,65 +318,67 @@ const PilotSeries* quietest(const Quantity& quantity, const std::vector<const Pi
 }
 
 // Those whose stored states are nearest to the quantity's tau.
-std::vector<const PilotSeries*> nearest_meshed(const Quantity& quantity,
-                                               std::vector<const PilotSeries*> gas) {
-  std::erase_if(gas, [](const PilotSeries* series) { return !series->pilots.front().mesh; });
-  const auto distance = [&](const PilotSeries* series) {
-    return std::abs(series->pilots.front().mesh->usual.tau - quantity.to);
+std::vector<const FinishedSeries*> nearest_meshed(const Quantity& quantity,
+                                                  std::vector<const FinishedSeries*> gas) {
+  std::erase_if(gas, [](const FinishedSeries* series) { return !series->runs.front().mesh; });
+  const auto distance = [&](const FinishedSeries* series) {
+    return std::abs(series->runs.front().mesh->usual.tau - quantity.to);
   };
   if (gas.empty()) return gas;
   const double least = distance(*std::ranges::min_element(gas, {}, distance));
-  std::erase_if(gas, [&](const PilotSeries* series) { return distance(series) > least; });
+  std::erase_if(gas, [&](const FinishedSeries* series) { return distance(series) > least; });
   return gas;
 }
 
-void add_shifts(const Quantity& quantity, const std::vector<const PilotSeries*>& gas,
-                std::vector<Shift>& shifts) {
+void add_shifts(const Quantity& quantity, const std::vector<const FinishedSeries*>& gas,
+                std::vector<BiasEstimate>& shifts) {
   for (const Condition& condition : conditions)
     add_condition_shifts(condition, quantity, gas, shifts);
-  if (const PilotSeries* series = quietest(quantity, gas))
+  if (const FinishedSeries* series = quietest(quantity, gas))
     add_sampling_shifts(quantity, *series, shifts);
   if (quantity.measure == Measure::correlation)
-    if (const PilotSeries* series = quietest(quantity, nearest_meshed(quantity, gas)))
+    if (const FinishedSeries* series = quietest(quantity, nearest_meshed(quantity, gas)))
       add_mesh_shift(quantity, *series, shifts);
 }
 
 // What may move the quantity at all: a correlation is of one state, others of samples.
-bool is_moved(const Quantity& quantity, Cause cause) {
+bool is_moved(const Quantity& quantity, SystematicEffect cause) {
   const bool is_of_mesh = quantity.measure == Measure::correlation;
   switch (cause) {
-    case Cause::mesh:
+    case SystematicEffect::mesh:
       return is_of_mesh;
-    case Cause::sampling:
+    case SystematicEffect::sampling:
       return !is_of_mesh;
-    case Cause::averaging:
+    case SystematicEffect::averaging:
       return quantity.from < quantity.to;
     default:
       return true;
   }
 }
 
-void assess_gas(const std::vector<const PilotSeries*>& gas, const Wanted& wanted,
+void assess_gas(const std::vector<const FinishedSeries*>& gas, const Wanted& wanted,
                 Assessment& assessment) {
   const schema::Job& job = gas.front()->job;
   for (const Quantity& quantity : quantities_of(gas, wanted)) {
     const std::size_t before = assessment.statistics.size();
-    for (const PilotSeries* series : gas)
+    for (const FinishedSeries* series : gas)
       if (auto statistics = statistics_of(quantity, *series, wanted.targets))
         assessment.statistics.push_back(*std::move(statistics));
     if (assessment.statistics.size() == before) {
-      const bool reached = std::ranges::any_of(gas, [&](const PilotSeries* series) {
-        return quantity.measure != Measure::tau_c && series->pilots.front().tau_max >= quantity.to;
+      const bool reached = std::ranges::any_of(gas, [&](const FinishedSeries* series) {
+        return quantity.measure != Measure::tau_c && series->runs.front().tau_max >= quantity.to;
       });
       assessment.absent.push_back({.quantity = quantity, .job = job, .reached = reached});
       continue;
     }
-    std::vector<Shift> shifts;
+    std::vector<BiasEstimate> shifts;
     add_shifts(quantity, gas, shifts);
-    for (const Cause cause :
-         {Cause::finite_size, Cause::equilibration, Cause::sampling, Cause::averaging, Cause::mesh})
-      if (is_moved(quantity, cause) &&
-          std::ranges::none_of(shifts, [&](const Shift& shift) { return shift.cause == cause; }))
+    for (const SystematicEffect cause :
+         {SystematicEffect::finite_size, SystematicEffect::equilibration,
+          SystematicEffect::sampling, SystematicEffect::averaging, SystematicEffect::mesh})
+      if (is_moved(quantity, cause) && std::ranges::none_of(shifts, [&](const BiasEstimate& shift) {
+            return shift.cause == cause;
+          }))
         assessment.unknown.push_back({.cause = cause, .quantity = quantity, .job = job});
     std::ranges::move(shifts, std::back_inserter(assessment.shifts));
   }
@@ -381,7 +386,7 @@ void assess_gas(const std::vector<const PilotSeries*>& gas, const Wanted& wanted
 
 // A shift that is not seen may still be as large as its error.
 double finite_size_bound(const Assessment& assessment, const Statistics& statistics) {
-  const Shift* shift = finite_size_shift(assessment, statistics);
+  const BiasEstimate* shift = finite_size_shift(assessment, statistics);
   return shift == nullptr ? 0 : std::max(finite_size_error(assessment, statistics), shift->error);
 }
 
@@ -403,17 +408,17 @@ bool is_candidate(const Statistics& each, const std::string& gas, const Quantity
 
 }  // namespace
 
-std::string name(Cause cause) {
+std::string name(SystematicEffect cause) {
   switch (cause) {
-    case Cause::finite_size:
+    case SystematicEffect::finite_size:
       return "finite size";
-    case Cause::equilibration:
+    case SystematicEffect::equilibration:
       return "equilibration";
-    case Cause::sampling:
+    case SystematicEffect::sampling:
       return "sampling";
-    case Cause::averaging:
+    case SystematicEffect::averaging:
       return "averaging";
-    case Cause::mesh:
+    case SystematicEffect::mesh:
       return "mesh";
   }
   throw std::logic_error("unknown cause");
@@ -425,11 +430,11 @@ std::string gas_key(schema::Job job) {
   return schema::series_identity(job);
 }
 
-Assessment assess(const std::vector<PilotSeries>& all, const std::vector<schema::Target>& targets,
-                  const std::vector<Quantity>& asked) {
+Assessment assess(const std::vector<FinishedSeries>& all,
+                  const std::vector<schema::Target>& targets, const std::vector<Quantity>& asked) {
   std::vector<std::string> order;
-  std::map<std::string, std::vector<const PilotSeries*>> gases;
-  for (const PilotSeries& series : all) {
+  std::map<std::string, std::vector<const FinishedSeries*>> gases;
+  for (const FinishedSeries& series : all) {
     auto& gas = gases[gas_key(series.job)];
     if (gas.empty()) order.push_back(gas_key(series.job));
     gas.push_back(&series);
@@ -439,9 +444,9 @@ Assessment assess(const std::vector<PilotSeries>& all, const std::vector<schema:
   return assessment;
 }
 
-const Shift* finite_size_shift(const Assessment& assessment, const Statistics& statistics) {
-  const auto found = std::ranges::find_if(assessment.shifts, [&](const Shift& shift) {
-    return shift.cause == Cause::finite_size && shift.quantity == statistics.quantity &&
+const BiasEstimate* finite_size_shift(const Assessment& assessment, const Statistics& statistics) {
+  const auto found = std::ranges::find_if(assessment.shifts, [&](const BiasEstimate& shift) {
+    return shift.cause == SystematicEffect::finite_size && shift.quantity == statistics.quantity &&
            shift.job.particles == statistics.job.particles &&
            gas_key(shift.job) == gas_key(statistics.job);
   });
@@ -449,7 +454,7 @@ const Shift* finite_size_shift(const Assessment& assessment, const Statistics& s
 }
 
 double finite_size_error(const Assessment& assessment, const Statistics& statistics) {
-  const Shift* shift = finite_size_shift(assessment, statistics);
+  const BiasEstimate* shift = finite_size_shift(assessment, statistics);
   if (shift == nullptr) return 0;
   return std::sqrt(std::max(0.0, shift->value * shift->value - shift->error * shift->error));
 }

@@ -28,29 +28,29 @@ struct Statistics {
 };
 
 // What moves a mean, whatever the number of realizations.
-enum class Cause { finite_size, equilibration, sampling, averaging, mesh };
+enum class SystematicEffect { finite_size, equilibration, sampling, averaging, mesh };
 
-std::string name(Cause cause);
+std::string name(SystematicEffect cause);
 
 // The mean under a condition less the mean under a better one.
-struct Shift {
+struct BiasEstimate {
   Quantity quantity;
   schema::Job job;  // of the condition
-  Cause cause = Cause::finite_size;
+  SystematicEffect cause = SystematicEffect::finite_size;
   std::string change;  // "N = 4 000, not 32 000"
   double value = 0;
   double error = 0;  // standard error of value
 };
 
 // A cause that may move a quantity, and of which the store says nothing.
-struct Unknown {
-  Cause cause;
+struct UnknownBias {
+  SystematicEffect cause;
   Quantity quantity;
   schema::Job job;  // one of the gas
 };
 
 // A quantity that no run of a gas has.
-struct Absence {
+struct NotMeasured {
   Quantity quantity;
   schema::Job job;       // one of the gas
   bool reached = false;  // a run is long enough: it was not measured
@@ -58,15 +58,15 @@ struct Absence {
 
 struct Assessment {
   std::vector<Statistics> statistics;  // by gas, quantity, series
-  std::vector<Shift> shifts;           // by gas, quantity, cause
-  std::vector<Unknown> unknown;        // likewise
-  std::vector<Absence> absent;
+  std::vector<BiasEstimate> shifts;    // by gas, quantity, cause
+  std::vector<UnknownBias> unknown;    // likewise
+  std::vector<NotMeasured> absent;
 };
 
 // Of the usual quantities, of those that have a target, and of those asked for besides. The
 // interval of a series with a target is the one that its runs were added for, from the pilots'
 // scatter.
-Assessment assess(const std::vector<PilotSeries>& all,
+Assessment assess(const std::vector<FinishedSeries>& all,
                   const std::vector<schema::Target>& targets = {},
                   const std::vector<Quantity>& asked = {});
 
@@ -74,7 +74,7 @@ Assessment assess(const std::vector<PilotSeries>& all,
 std::string gas_key(schema::Job job);
 
 // The shift of gases of this size, whatever their preparation; nothing for the largest.
-const Shift* finite_size_shift(const Assessment& assessment, const Statistics& statistics);
+const BiasEstimate* finite_size_shift(const Assessment& assessment, const Statistics& statistics);
 
 // The finite size of the gas as an error beside that of chance: its shift less what chance would
 // make of none, 0 where the largest gas is meant or the shift is within its error.

@@ -13,6 +13,7 @@
 
 #include "campaign/accuracy/assessment.hpp"
 #include "campaign/accuracy/cost_figure.hpp"
+#include "campaign/accuracy/differences.hpp"
 #include "campaign/base/csv.hpp"
 #include "campaign/base/duration.hpp"
 #include "campaign/base/job_text.hpp"
@@ -35,17 +36,17 @@ constexpr std::string_view pilot_grid = R"({ "e": 0.90, "n": 0.4, "tau_max": 20,
 // Fewer leave the scatter, and with it the advice, open to a third.
 constexpr std::size_t fewest_runs = 5;
 
-std::string plan_for(Cause cause) {
+std::string plan_for(SystematicEffect cause) {
   switch (cause) {
-    case Cause::finite_size:
+    case SystematicEffect::finite_size:
       return R"(plan the same grid with several "N", e.g. "N": [2000, 8000, 32000])";
-    case Cause::equilibration:
+    case SystematicEffect::equilibration:
       return R"(plan the same grid with "equilibrate": [50, 100])";
-    case Cause::sampling:
+    case SystematicEffect::sampling:
       return "needs two realizations, of a gas that has it in each, sampled often";
-    case Cause::averaging:
+    case SystematicEffect::averaging:
       return "needs two realizations";
-    case Cause::mesh:
+    case SystematicEffect::mesh:
       return R"(needs two realizations with "correlations" in a box of more than 16 sigma)";
   }
   return "";
@@ -124,7 +125,7 @@ void print_shifts(const Assessment& assessment, std::ostream& report) {
                    {"error"},
                    {"in errors"},
                    {"", Align::left}});
-  for (const Shift& each : assessment.shifts)
+  for (const BiasEstimate& each : assessment.shifts)
     table.add({describe(each.quantity), e_text(each.job), number_text(each.job.n),
                count_text(each.job.particles), name(each.cause), fmt::format("{:+.1e}", each.value),
                error_text(each.error),
@@ -137,12 +138,49 @@ void print_shifts(const Assessment& assessment, std::ostream& report) {
                table.text());
 }
 
+std::vector<Quantity> quantities_in(const Assessment& assessment) {
+  std::vector<Quantity> all;
+  for (const Statistics& each : assessment.statistics)
+    if (std::ranges::find(all, each.quantity) == all.end()) all.push_back(each.quantity);
+  return all;
+}
+
+// What sets two gases apart that started from the same states.
+std::string apart(const Difference& each) {
+  const auto text = [&](const schema::Job& job) {
+    return each.job.e != each.reference.e ? "e " + e_text(job) : job.effects;
+  };
+  return fmt::format("{}, not {}", text(each.job), text(each.reference));
+}
+
+void print_differences(const std::vector<Difference>& differences, std::ostream& report) {
+  TextTable table({{"quantity", Align::left},
+                   {"n"},
+                   {"N"},
+                   {"seeds"},
+                   {"difference"},
+                   {"error"},
+                   {"if independent"},
+                   {"", Align::left}});
+  for (const Difference& each : differences)
+    table.add({describe(each.quantity), number_text(each.job.n), count_text(each.job.particles),
+               count_text(static_cast<long long>(each.pairs)), value_text(each.value, each.error),
+               error_text(each.error), error_text(each.independent), apart(each)});
+  if (!table.empty())
+    fmt::print(report,
+               "Differences of gases that started from the same states, seed by seed: what chance "
+               "does to both\nalike is not in their error.\n\n{}\n",
+               table.text());
+}
+
 // Gases that lack the same are named together.
 void print_unknown(const Assessment& assessment, std::ostream& report) {
-  std::map<std::pair<Cause, std::string>, std::vector<std::string>> quantities;  // by cause and gas
-  for (const Unknown& each : assessment.unknown)
+  std::map<std::pair<SystematicEffect, std::string>, std::vector<std::string>>
+      quantities;  // by cause and gas
+  for (const UnknownBias& each : assessment.unknown)
     quantities[{each.cause, gas_text(each.job)}].push_back(describe(each.quantity));
-  std::map<std::pair<Cause, std::string>, std::vector<std::string>> gases;  // ... and quantities
+  std::map<std::pair<SystematicEffect, std::string>, std::vector<std::string>>
+      gases;  // ... and quantities
   for (const auto& [key, names] : quantities)
     gases[{key.first, joined(names)}].push_back(key.second);
   for (const auto& [key, names] : gases)
@@ -152,7 +190,7 @@ void print_unknown(const Assessment& assessment, std::ostream& report) {
 }
 
 // Why no run has it, and what to plan so that one has.
-std::string reason_for(const Absence& absence) {
+std::string reason_for(const NotMeasured& absence) {
   const Quantity& quantity = absence.quantity;
   if (quantity.measure == Measure::tau_c) return R"(no run reaches it; plan a larger "tau_max")";
   if (!absence.reached)
@@ -169,7 +207,7 @@ std::string reason_for(const Absence& absence) {
 void print_absent(const Assessment& assessment, std::ostream& report) {
   std::vector<std::string> order;
   std::map<std::string, std::vector<std::string>> gases;
-  for (const Absence& each : assessment.absent) {
+  for (const NotMeasured& each : assessment.absent) {
     const std::string line = describe(each.quantity) + ": " + reason_for(each);
     add_once(order, line);
     add_once(gases[line], gas_text(each.job));
@@ -364,7 +402,7 @@ void write_csv(const Assessment& assessment, const std::vector<Advice>& advised,
               "cause", "realizations", "cpu_seconds", "value", "error", "interval", "slope",
               "slope_error", "correlation_time", "memory_bytes");
   for (const Statistics& each : assessment.statistics) text += statistics_lines(each);
-  for (const Shift& each : assessment.shifts)
+  for (const BiasEstimate& each : assessment.shifts)
     text += text_of({.row = "shift",
                      .quantity = each.quantity,
                      .job = each.job,
@@ -448,17 +486,18 @@ std::optional<CostTarget> target_from_text(const std::string& text) {
 }
 
 int cost(const schema::Reader& store, const CostRequest& request, std::ostream& report) {
-  const auto pilots = read_pilots(store);
-  if (pilots.empty()) {
+  const auto finished = read_finished_runs(store);
+  if (finished.empty()) {
     fmt::print(report, "No cooling run is done. For what accuracy costs plan, for example\n{}\n",
                pilot_grid);
     return 1;
   }
-  const Assessment assessment = assess(pilots, store.targets(), asked_by(request));
+  const Assessment assessment = assess(finished, store.targets(), asked_by(request));
   Forecast forecast(store.jobs());
   const auto advised = advice(assessment, request, forecast);
   print_statistics(assessment, report);
   print_shifts(assessment, report);
+  print_differences(paired_differences(finished, quantities_in(assessment)), report);
   print_unknown(assessment, report);
   print_rounding(store, report);
   print_absent(assessment, report);

@@ -96,7 +96,7 @@ Inks inks_of(const std::vector<Members>& quantities) {
 }
 
 // A shift of more than two of its errors.
-bool is_seen(const Shift& shift) {
+bool is_seen(const BiasEstimate& shift) {
   return std::abs(shift.value) > 2 * shift.error;
 }
 
@@ -110,13 +110,13 @@ struct Reach {
 };
 
 // Shifts that are seen of this quantity in this series.
-std::vector<const Shift*> seen_shifts(const Assessment& assessment, const Statistics& each) {
-  std::vector<const Shift*> seen;
-  const Shift* of_size = finite_size_shift(assessment, each);
+std::vector<const BiasEstimate*> seen_shifts(const Assessment& assessment, const Statistics& each) {
+  std::vector<const BiasEstimate*> seen;
+  const BiasEstimate* of_size = finite_size_shift(assessment, each);
   if (of_size != nullptr && is_seen(*of_size)) seen.push_back(of_size);
-  for (const Shift& shift : assessment.shifts)
-    if (shift.cause != Cause::finite_size && shift.quantity == each.quantity && is_seen(shift) &&
-        schema::series_identity(shift.job) == schema::series_identity(each.job))
+  for (const BiasEstimate& shift : assessment.shifts)
+    if (shift.cause != SystematicEffect::finite_size && shift.quantity == each.quantity &&
+        is_seen(shift) && schema::series_identity(shift.job) == schema::series_identity(each.job))
       seen.push_back(&shift);
   return seen;
 }
@@ -149,9 +149,9 @@ void add_series(const Assessment& assessment, const Statistics& each, const std:
 
   panel.curves.insert(panel.curves.end(), {line, points});
 
-  for (const Shift* shift : seen_shifts(assessment, each)) {
+  for (const BiasEstimate* shift : seen_shifts(assessment, each)) {
     const double size = std::abs(shift->value);
-    const bool is_of_size = shift->cause == Cause::finite_size;
+    const bool is_of_size = shift->cause == SystematicEffect::finite_size;
     Curve floor{.name = name(shift->cause), .particles = each.job.particles};
     floor.look = is_of_size ? Look::dashed : Look::dotted;
     floor.colour = ink;

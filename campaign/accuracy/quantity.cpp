@@ -88,10 +88,10 @@ std::optional<double> ln_temperature(double tau, int d, const Samples& samples) 
   return analysis::interpolated(at, logarithm, std::min(tau, at.back()));
 }
 
-std::optional<double> crossover(const schema::Job& job, const Pilot& pilot, std::size_t every) {
-  if (every == 1 || !cools_by_haff(job)) return pilot.tau_c;
+std::optional<double> crossover(const schema::Job& job, const FinishedRun& run, std::size_t every) {
+  if (every == 1 || !cools_by_haff(job)) return run.tau_c;
   std::vector<double> tau, temperature;
-  for (const schema::Sample& sample : every_so_manieth(pilot.samples, every)) {
+  for (const schema::Sample& sample : every_so_manieth(run.samples, every)) {
     if (!sample.temperature) return std::nullopt;
     tau.push_back(sample.tau);
     temperature.push_back(*sample.temperature);
@@ -99,8 +99,8 @@ std::optional<double> crossover(const schema::Job& job, const Pilot& pilot, std:
   return analysis::tau_c(tau, temperature, *job.e, job.d);
 }
 
-std::optional<double> correlation(const Quantity& quantity, const Pilot& pilot) {
-  for (const schema::Profile& profile : pilot.correlations) {
+std::optional<double> correlation(const Quantity& quantity, const FinishedRun& run) {
+  for (const schema::Profile& profile : run.correlations) {
     if (std::abs(profile.tau - quantity.to) > rounding) continue;
     return analysis::interpolated(profile.x, profile.value, quantity.r);
   }
@@ -184,11 +184,11 @@ Quantity middle_half(const Quantity& quantity) {
   return half;
 }
 
-std::optional<double> value_of(const Quantity& quantity, const schema::Job& job, const Pilot& pilot,
-                               std::size_t every) {
-  if (quantity.measure == Measure::tau_c) return crossover(job, pilot, every);
-  if (quantity.measure == Measure::correlation) return correlation(quantity, pilot);
-  const Samples samples = every_so_manieth(pilot.samples, every);
+std::optional<double> value_of(const Quantity& quantity, const schema::Job& job,
+                               const FinishedRun& run, std::size_t every) {
+  if (quantity.measure == Measure::tau_c) return crossover(job, run, every);
+  if (quantity.measure == Measure::correlation) return correlation(quantity, run);
+  const Samples samples = every_so_manieth(run.samples, every);
   if (quantity.measure == Measure::gamma_ratio) return decay_rate(quantity, job, samples);
   if (quantity.measure == Measure::ln_temperature)
     return ln_temperature(quantity.to, job.d, samples);
@@ -196,10 +196,9 @@ std::optional<double> value_of(const Quantity& quantity, const schema::Job& job,
 }
 
 std::optional<OneRunError> error_within(const Quantity& quantity, const schema::Job& job,
-                                        const Pilot& pilot) {
+                                        const FinishedRun& run) {
   if (!is_laguerre(quantity.measure)) return std::nullopt;
-  const auto values =
-      laguerre_series(quantity, within(pilot.samples, quantity.from, pilot.tau_max));
+  const auto values = laguerre_series(quantity, within(run.samples, quantity.from, run.tau_max));
   if (values.size() < 2) return std::nullopt;
   const auto blocks = analysis::block_estimate(values);
   if (static_cast<double>(blocks.block_length) < long_enough * blocks.correlation_time)
@@ -212,24 +211,23 @@ std::optional<OneRunError> error_within(const Quantity& quantity, const schema::
       .correlation_time = correlation_time};
 }
 
-std::optional<double> half_interval(const schema::Target& target, const PilotSeries& series) {
+std::optional<double> half_interval(const schema::Target& target, const FinishedSeries& series) {
   std::size_t realizations = 0;
   std::vector<double> of_pilots;
-  for (const Pilot& pilot : series.pilots) {
-    const auto value = value_of(quantity_of(target), series.job, pilot);
+  for (const FinishedRun& run : series.runs) {
+    const auto value = value_of(quantity_of(target), series.job, run);
     if (!value) continue;
     ++realizations;
-    if (std::ranges::count(target.pilots, pilot.seed) > 0) of_pilots.push_back(*value);
+    if (std::ranges::count(target.pilots, run.seed) > 0) of_pilots.push_back(*value);
   }
   if (of_pilots.size() < 2 || of_pilots.size() < target.pilots.size()) return std::nullopt;
   return analysis::half_interval(analysis::estimate(of_pilots), realizations);
 }
 
-double cpu_seconds(const Quantity& quantity, const Pilot& pilot) {
-  const double needed = quantity.measure == Measure::tau_c ? pilot.tau_c.value_or(pilot.tau_max)
+double cpu_seconds(const Quantity& quantity, const FinishedRun& run) {
+  const double needed = quantity.measure == Measure::tau_c ? run.tau_c.value_or(run.tau_max)
                                                            : std::max(quantity.to, 0.0);
-  return pilot.equilibration_cpu_seconds +
-         pilot.cpu_seconds * std::min(1.0, needed / pilot.tau_max);
+  return run.equilibration_cpu_seconds + run.cpu_seconds * std::min(1.0, needed / run.tau_max);
 }
 
 }  // namespace haff::campaign

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "campaign/results/pilots.hpp"
+#include "campaign/results/finished_runs.hpp"
 
 namespace haff::campaign {
 
@@ -33,8 +33,8 @@ Quantity middle_half(const Quantity& quantity);  // of its window
 
 // Its value in one realization, of which only every so manieth sample is looked at; nothing if the
 // run did not reach or measure it.
-std::optional<double> value_of(const Quantity& quantity, const schema::Job& job, const Pilot& pilot,
-                               std::size_t every = 1);
+std::optional<double> value_of(const Quantity& quantity, const schema::Job& job,
+                               const FinishedRun& run, std::size_t every = 1);
 
 // The error of that value from this realization alone. A window of some correlation times cannot
 // tell its own error: blocks over all the run from the window on tell the correlation time t, and
@@ -47,15 +47,15 @@ struct OneRunError {
   double correlation_time = 0;  // [tau]
 };
 std::optional<OneRunError> error_within(const Quantity& quantity, const schema::Job& job,
-                                        const Pilot& pilot);
+                                        const FinishedRun& run);
 
 // Half the 95 % interval of the mean of a series that was run until a target was met: the scatter
 // of the target's pilot runs alone decides (analysis/statistics/accuracy.hpp says why). Nothing
 // until each of them has a value.
-std::optional<double> half_interval(const schema::Target& target, const PilotSeries& series);
+std::optional<double> half_interval(const schema::Target& target, const FinishedSeries& series);
 
 // CPU time of one realization run as far as the quantity needs, its equilibration included and
 // cooling in proportion to tau. [s]
-double cpu_seconds(const Quantity& quantity, const Pilot& pilot);
+double cpu_seconds(const Quantity& quantity, const FinishedRun& run);
 
 }  // namespace haff::campaign

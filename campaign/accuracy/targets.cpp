@@ -15,7 +15,7 @@
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/planning/forecast.hpp"
-#include "campaign/results/pilots.hpp"
+#include "campaign/results/finished_runs.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -56,15 +56,14 @@ std::map<std::string, Runs> runs_by_series(const schema::Reader& store) {
   return all;
 }
 
-double spent_cpu_seconds(const PilotSeries& series) {
+double spent_cpu_seconds(const FinishedSeries& series) {
   double sum = 0;
-  for (const Pilot& pilot : series.pilots)
-    sum += pilot.cpu_seconds + pilot.equilibration_cpu_seconds;
+  for (const FinishedRun& run : series.runs) sum += run.cpu_seconds + run.equilibration_cpu_seconds;
   return sum;
 }
 
-double mean_cpu_seconds(const PilotSeries& series) {
-  return spent_cpu_seconds(series) / static_cast<double>(series.pilots.size());
+double mean_cpu_seconds(const FinishedSeries& series) {
+  return spent_cpu_seconds(series) / static_cast<double>(series.runs.size());
 }
 
 // What the finished realizations say of a target.
@@ -73,10 +72,10 @@ struct Values {
   std::size_t without = 0;  // realizations that have no such value
 };
 
-Values values_of(const schema::Target& target, const PilotSeries& series) {
+Values values_of(const schema::Target& target, const FinishedSeries& series) {
   Values values;
-  for (const Pilot& pilot : series.pilots) {
-    const auto value = value_of(quantity_of(target), series.job, pilot);
+  for (const FinishedRun& run : series.runs) {
+    const auto value = value_of(quantity_of(target), series.job, run);
     if (!value) {
       ++values.without;
       continue;
@@ -87,13 +86,13 @@ Values values_of(const schema::Target& target, const PilotSeries& series) {
 }
 
 std::string reason_for(const schema::Target& target, const Values& values,
-                       const PilotSeries& series) {
+                       const FinishedSeries& series) {
   if (values.without == 0) return "a pilot run did not end as done";
-  return fmt::format("{} of {} runs have no {}{}", values.without, series.pilots.size(),
+  return fmt::format("{} of {} runs have no {}{}", values.without, series.runs.size(),
                      target.quantity, target.quantity == "tau_c" ? ": plan a larger tau_max" : "");
 }
 
-void judge(TargetProgress& progress, const Runs& runs, const PilotSeries& series) {
+void judge(TargetProgress& progress, const Runs& runs, const FinishedSeries& series) {
   const schema::Target& target = progress.target;
   const Values values = values_of(target, series);
   progress.pending_cpu_seconds = runs.to_come;
@@ -180,8 +179,8 @@ std::vector<TargetProgress> progress_of(const schema::Reader& store,
   std::set<std::string> wanted;
   for (const schema::Target& target : targets) wanted.insert(target.series);
   const auto runs = runs_by_series(store);
-  std::map<std::string, PilotSeries> finished;
-  for (PilotSeries& series : read_pilots(store, wanted))
+  std::map<std::string, FinishedSeries> finished;
+  for (FinishedSeries& series : read_finished_runs(store, wanted))
     finished.emplace(schema::series_identity(series.job), std::move(series));
 
   std::vector<TargetProgress> all;
@@ -190,10 +189,10 @@ std::vector<TargetProgress> progress_of(const schema::Reader& store,
     if (found == runs.end()) continue;  // only tried out: nothing is planned of it
     TargetProgress progress{.target = target, .job = found->second.rows.front().job};
     progress.planned = found->second.rows.size();
-    const auto pilots = finished.find(target.series);
-    judge(
-        progress, found->second,
-        pilots != finished.end() ? pilots->second : PilotSeries{.job = progress.job, .pilots = {}});
+    const auto found_runs = finished.find(target.series);
+    judge(progress, found->second,
+          found_runs != finished.end() ? found_runs->second
+                                       : FinishedSeries{.job = progress.job, .runs = {}});
     all.push_back(std::move(progress));
   }
   return all;

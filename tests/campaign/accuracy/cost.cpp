@@ -24,24 +24,23 @@ namespace {
 constexpr Quantity a2{.measure = Measure::a2, .from = 5, .to = 15};
 
 // Realizations whose a2 is constant in tau: `mean` and normal noise.
-PilotSeries gas(std::uint32_t particles, std::size_t realizations, double mean, double deviation,
-                double cpu_seconds) {
-  PilotSeries series{
-      .job = {.e = 0.9, .n = 0.4, .particles = particles, .observables = {"laguerre"}},
-      .pilots = {}};
+FinishedSeries gas(std::uint32_t particles, std::size_t realizations, double mean, double deviation,
+                   double cpu_seconds) {
+  FinishedSeries series{
+      .job = {.e = 0.9, .n = 0.4, .particles = particles, .observables = {"laguerre"}}, .runs = {}};
   Gaussian gaussian(particles);
   for (std::size_t k = 0; k < realizations; ++k) {
-    Pilot pilot{.seed = k + 1, .tau_max = 15, .cpu_seconds = cpu_seconds};
+    FinishedRun run{.seed = k + 1, .tau_max = 15, .cpu_seconds = cpu_seconds};
     const double value = mean + deviation * gaussian();
     for (int tau = 0; tau <= 15; ++tau)
-      pilot.samples.push_back({.tau = static_cast<double>(tau), .a2 = value});
-    series.pilots.push_back(pilot);
+      run.samples.push_back({.tau = static_cast<double>(tau), .a2 = value});
+    series.runs.push_back(run);
   }
   return series;
 }
 
 // a2 = -0.04 but for 0.01 more in the small box; noise as N^-1/2.
-std::vector<PilotSeries> two_sizes() {
+std::vector<FinishedSeries> two_sizes() {
   return {gas(1000, 256, -0.03, 0.02, 0.1), gas(4000, 256, -0.04, 0.01, 0.5)};
 }
 
@@ -72,8 +71,8 @@ TEST_CASE("cost: errors of independent realizations fall as one over the root") 
 
 TEST_CASE("cost: a shift with the size of the gas is found, with its error") {
   const Assessment assessment = assess(two_sizes());
-  const auto shift = std::ranges::find_if(assessment.shifts, [](const Shift& each) {
-    return each.cause == Cause::finite_size && each.quantity == a2;
+  const auto shift = std::ranges::find_if(assessment.shifts, [](const BiasEstimate& each) {
+    return each.cause == SystematicEffect::finite_size && each.quantity == a2;
   });
   REQUIRE(shift != assessment.shifts.end());
   CHECK(shift->change == "N = 1 000, not N = 4 000");
@@ -100,22 +99,22 @@ TEST_CASE("cost: an accuracy that a small gas cannot reach takes the larger one"
 
 TEST_CASE("cost: what the store says nothing of is named, quantity by quantity") {
   const Assessment assessment = assess(two_sizes());
-  const auto unknown = [&](Cause cause) {
-    return std::ranges::count_if(assessment.unknown, [&](const Unknown& each) {
+  const auto unknown = [&](SystematicEffect cause) {
+    return std::ranges::count_if(assessment.unknown, [&](const UnknownBias& each) {
       return each.quantity == a2 && each.cause == cause;
     });
   };
-  CHECK(unknown(Cause::finite_size) == 0);
-  CHECK(unknown(Cause::equilibration) == 1);
-  CHECK(unknown(Cause::sampling) == 0);
-  CHECK(unknown(Cause::mesh) == 0);  // it moves correlations alone
+  CHECK(unknown(SystematicEffect::finite_size) == 0);
+  CHECK(unknown(SystematicEffect::equilibration) == 1);
+  CHECK(unknown(SystematicEffect::sampling) == 0);
+  CHECK(unknown(SystematicEffect::mesh) == 0);  // it moves correlations alone
 }
 
 TEST_CASE("cost: quantities that no run has are named, with the reason") {
   const Assessment assessment = assess(two_sizes());
   const auto absence = [&](const Quantity& quantity) {
     return std::ranges::find_if(assessment.absent,
-                                [&](const Absence& each) { return each.quantity == quantity; });
+                                [&](const NotMeasured& each) { return each.quantity == quantity; });
   };
   CHECK(absence(a2) == assessment.absent.end());
   const auto late = absence(usual_quantity(Measure::gamma_ratio, 50));
@@ -130,8 +129,9 @@ TEST_CASE("cost: of as many particles in all the larger gas shows what sampling 
   const Assessment assessment =
       assess({gas(1000, 64, -0.03, 0.02, 0.1), gas(4000, 16, -0.04, 0.01, 0.5)});
   bool any = false;
-  for (const Shift& shift : assessment.shifts) {
-    if (shift.cause != Cause::sampling && shift.cause != Cause::averaging) continue;
+  for (const BiasEstimate& shift : assessment.shifts) {
+    if (shift.cause != SystematicEffect::sampling && shift.cause != SystematicEffect::averaging)
+      continue;
     any = true;
     CHECK(shift.job.particles == 4000);
   }
@@ -139,12 +139,13 @@ TEST_CASE("cost: of as many particles in all the larger gas shows what sampling 
 }
 
 TEST_CASE("cost: a gas without the quantity does not stand for it") {
-  std::vector<PilotSeries> series{gas(1000, 8, -0.03, 0.02, 0.1), gas(4000, 8, -0.04, 0.01, 0.5)};
-  for (Pilot& pilot : series[1].pilots)
-    for (schema::Sample& sample : pilot.samples) sample.a2.reset();
+  std::vector<FinishedSeries> series{gas(1000, 8, -0.03, 0.02, 0.1),
+                                     gas(4000, 8, -0.04, 0.01, 0.5)};
+  for (FinishedRun& run : series[1].runs)
+    for (schema::Sample& sample : run.samples) sample.a2.reset();
   const Assessment assessment = assess(series);
-  const auto shift = std::ranges::find_if(assessment.shifts, [](const Shift& each) {
-    return each.cause == Cause::sampling && each.quantity == a2;
+  const auto shift = std::ranges::find_if(assessment.shifts, [](const BiasEstimate& each) {
+    return each.cause == SystematicEffect::sampling && each.quantity == a2;
   });
   REQUIRE(shift != assessment.shifts.end());
   CHECK(shift->job.particles == 1000);
@@ -152,14 +153,13 @@ TEST_CASE("cost: a gas without the quantity does not stand for it") {
 
 TEST_CASE("cost: fewer samples that are the same ones are said to be") {
   auto series = two_sizes();
-  for (PilotSeries& each : series)
-    for (Pilot& pilot : each.pilots)
-      for (schema::Sample& sample : pilot.samples)
-        sample.temperature = std::exp(-0.06 * sample.tau);
+  for (FinishedSeries& each : series)
+    for (FinishedRun& run : each.runs)
+      for (schema::Sample& sample : run.samples) sample.temperature = std::exp(-0.06 * sample.tau);
   const Quantity at_10 = usual_quantity(Measure::ln_temperature, 10);
   const Assessment assessment = assess(series, {}, {at_10});
-  const auto shift = std::ranges::find_if(assessment.shifts, [&](const Shift& each) {
-    return each.cause == Cause::sampling && each.quantity == at_10;
+  const auto shift = std::ranges::find_if(assessment.shifts, [&](const BiasEstimate& each) {
+    return each.cause == SystematicEffect::sampling && each.quantity == at_10;
   });
   REQUIRE(shift != assessment.shifts.end());
   CHECK(shift->value == 0);
@@ -170,18 +170,18 @@ namespace {
 
 // One run whose a2 forgets itself as exp(-tau / 1.9), as near the Gaussian: integrated correlation
 // time 1.94 for a sample every 1.
-PilotSeries correlated(double tau_max, double sample_every, std::uint64_t seed) {
+FinishedSeries correlated(double tau_max, double sample_every, std::uint64_t seed) {
   const double memory = std::exp(-sample_every / 1.9);
-  PilotSeries series{.job = {.e = 0.9,
-                             .n = 0.4,
-                             .particles = 1000,
-                             .sample_every = sample_every,
-                             .observables = {"laguerre"}},
-                     .pilots = {{.seed = 1, .tau_max = tau_max, .cpu_seconds = 1}}};
+  FinishedSeries series{.job = {.e = 0.9,
+                                .n = 0.4,
+                                .particles = 1000,
+                                .sample_every = sample_every,
+                                .observables = {"laguerre"}},
+                        .runs = {{.seed = 1, .tau_max = tau_max, .cpu_seconds = 1}}};
   Gaussian gaussian(seed);
   double a2_now = gaussian();
   for (double tau = 0; tau <= tau_max; tau += sample_every) {
-    series.pilots[0].samples.push_back({.tau = tau, .a2 = -0.03 + 0.01 * a2_now});
+    series.runs[0].samples.push_back({.tau = tau, .a2 = -0.03 + 0.01 * a2_now});
     a2_now = memory * a2_now + std::sqrt(1 - memory * memory) * gaussian();
   }
   return series;
@@ -196,11 +196,11 @@ TEST_CASE("cost: the error of a single run is the scatter of its window's mean")
     double squares = 0, claimed = 0;
     std::size_t runs = 0;
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
-      const PilotSeries series = correlated(340, sample_every, seed);
-      const auto error = error_within(a2, series.job, series.pilots[0]);
+      const FinishedSeries series = correlated(340, sample_every, seed);
+      const auto error = error_within(a2, series.job, series.runs[0]);
       if (!error) continue;
       ++runs;
-      squares += std::pow(value_of(a2, series.job, series.pilots[0]).value() + 0.03, 2);
+      squares += std::pow(value_of(a2, series.job, series.runs[0]).value() + 0.03, 2);
       claimed += std::pow(error->standard_error, 2);
     }
     CAPTURE(sample_every);
@@ -210,7 +210,7 @@ TEST_CASE("cost: the error of a single run is the scatter of its window's mean")
 }
 
 TEST_CASE("cost: a single run has an error with its correlation time, and advice") {
-  const PilotSeries series = correlated(340, 1, 1);
+  const FinishedSeries series = correlated(340, 1, 1);
   const Assessment assessment = assess({series});
   const Statistics& single = of_size(assessment, 1000);
   CHECK(single.realizations == 1);
@@ -224,24 +224,25 @@ TEST_CASE("cost: a single run has an error with its correlation time, and advice
 TEST_CASE("cost: a run too short to show its correlation time has no error") {
   for (const double sample_every : {0.25, 1.0})
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-      const PilotSeries series = correlated(20, sample_every, seed);
-      CHECK_FALSE(error_within(a2, series.job, series.pilots[0]));
+      const FinishedSeries series = correlated(20, sample_every, seed);
+      CHECK_FALSE(error_within(a2, series.job, series.runs[0]));
     }
 }
 
 TEST_CASE("cost: what wider cells do to a correlation is the difference of the same states") {
   auto series = two_sizes();
-  for (PilotSeries& each : series)  // the small gas ends where the correlation is asked for
-    for (std::size_t k = 0; k < each.pilots.size(); ++k) {
+  for (FinishedSeries& each : series)  // the small gas ends where the correlation is asked for
+    for (std::size_t k = 0; k < each.runs.size(); ++k) {
       const double value = static_cast<double>(k % 7);
       const double end = each.job.particles == 1000 ? 15 : 40;
-      each.pilots[k].correlations = {{"G_parallel", 15, {4, 6}, {value, value}}};
-      each.pilots[k].mesh = {.usual = {"G_parallel", end, {4, 6}, {value, value}},
-                             .wide = {"G_parallel", end, {4, 6}, {value - 0.5, value - 0.5}}};
+      each.runs[k].correlations = {{"G_parallel", 15, {4, 6}, {value, value}}};
+      each.runs[k].mesh = {.usual = {"G_parallel", end, {4, 6}, {value, value}},
+                           .wide = {"G_parallel", end, {4, 6}, {value - 0.5, value - 0.5}}};
     }
   const Assessment assessment = assess(series);
-  const auto shift = std::ranges::find_if(
-      assessment.shifts, [](const Shift& each) { return each.cause == Cause::mesh; });
+  const auto shift = std::ranges::find_if(assessment.shifts, [](const BiasEstimate& each) {
+    return each.cause == SystematicEffect::mesh;
+  });
   REQUIRE(shift != assessment.shifts.end());
   CHECK(shift->value == Approx(-0.5));
   CHECK(shift->error < 1e-12);
@@ -275,8 +276,8 @@ TEST_CASE("cost: a target's window is among the quantities, its interval rests o
 
 TEST_CASE("cost: where the largest gas is known too badly more of it is advised") {
   // Both sizes are equal within their errors; the small one is cheaper.
-  const std::vector<PilotSeries> series{gas(1000, 256, -0.04, 0.02, 0.1),
-                                        gas(4000, 4, -0.04, 0.01, 10)};
+  const std::vector<FinishedSeries> series{gas(1000, 256, -0.04, 0.02, 0.1),
+                                           gas(4000, 4, -0.04, 0.01, 10)};
   const Assessment assessment = assess(series);
   const std::string key = gas_key(series[0].job);
   const double uncertain = finite_size_shift(assessment, of_size(assessment, 1000))->error;
@@ -293,17 +294,17 @@ TEST_CASE("cost: where the largest gas is known too badly more of it is advised"
 
 TEST_CASE("cost: where runs end before their tau_c the mean of the others is no measure") {
   auto series = two_sizes();
-  for (PilotSeries& each : series)
-    for (std::size_t k = 0; k < each.pilots.size(); ++k)
-      each.pilots[k].tau_c = 130 + static_cast<double>(k % 7);
+  for (FinishedSeries& each : series)
+    for (std::size_t k = 0; k < each.runs.size(); ++k)
+      each.runs[k].tau_c = 130 + static_cast<double>(k % 7);
   const Quantity tau_c{.measure = Measure::tau_c};
   const std::string key = gas_key(series[0].job);
   CHECK(cheapest(assess(series), key, tau_c, 1));
-  for (PilotSeries& each : series) each.pilots[3].tau_c.reset();
+  for (FinishedSeries& each : series) each.runs[3].tau_c.reset();
   const Assessment assessment = assess(series);
   CHECK_FALSE(cheapest(assessment, key, tau_c, 1));
   CHECK(std::ranges::none_of(assessment.shifts,
-                             [&](const Shift& shift) { return shift.quantity == tau_c; }));
+                             [&](const BiasEstimate& shift) { return shift.quantity == tau_c; }));
   CHECK(std::ranges::any_of(assessment.statistics,
                             [](const Statistics& each) { return each.unfinished == 1; }));
 }

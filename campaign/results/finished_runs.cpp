@@ -1,4 +1,4 @@
-#include "campaign/results/pilots.hpp"
+#include "campaign/results/finished_runs.hpp"
 
 #include <cmath>
 #include <map>
@@ -25,57 +25,57 @@ std::optional<MeshTrial> mesh_trial(const schema::Reader& store, const schema::J
   return MeshTrial{measured(1), measured(wide_cell)};
 }
 
-Pilot read_pilot(const schema::Reader& store, const schema::JobRow& row, double equilibration) {
-  Pilot pilot{.seed = row.job.seed,
-              .tau_max = row.tau_max,
-              .cpu_seconds = row.progress.cpu_seconds,
-              .equilibration_cpu_seconds = equilibration,
-              .samples = store.samples(row.job_id)};
-  if (const auto results = store.results(row.job_id)) pilot.tau_c = results->tau_c;
-  return pilot;
+FinishedRun read_run(const schema::Reader& store, const schema::JobRow& row, double equilibration) {
+  FinishedRun run{.seed = row.job.seed,
+                  .tau_max = row.tau_max,
+                  .cpu_seconds = row.progress.cpu_seconds,
+                  .equilibration_cpu_seconds = equilibration,
+                  .samples = store.samples(row.job_id)};
+  if (const auto results = store.results(row.job_id)) run.tau_c = results->tau_c;
+  return run;
 }
 
-void read_correlations(const schema::Reader& store, const schema::JobRow& row, Pilot& pilot) {
+void read_correlations(const schema::Reader& store, const schema::JobRow& row, FinishedRun& run) {
   if (!row.job.profiles_every) return;
-  pilot.correlations = store.profiles(row.job_id, "G_parallel");
-  if (!pilot.correlations.empty()) pilot.mesh = mesh_trial(store, row);
+  run.correlations = store.profiles(row.job_id, "G_parallel");
+  if (!run.correlations.empty()) run.mesh = mesh_trial(store, row);
 }
 
-// Of the series wanted; `complete` adds to each pilot what its row leads to.
+// Of the series wanted; `complete` adds to each run what its row leads to.
 template <class Wanted, class Complete>
-std::vector<PilotSeries> read_those(const schema::Reader& store, Wanted&& wanted,
-                                    Complete&& complete) {
+std::vector<FinishedSeries> read_those(const schema::Reader& store, Wanted&& wanted,
+                                       Complete&& complete) {
   const auto jobs = store.jobs();
   std::map<std::int64_t, double> spent;  // by job
   for (const schema::JobRow& row : jobs) spent[row.job_id] = row.progress.cpu_seconds;
 
-  std::vector<PilotSeries> all;
+  std::vector<FinishedSeries> all;
   for (const schema::JobRow& row : jobs) {
     if (row.job.kind != schema::Kind::cooling || row.status != schema::Status::done) continue;
     const std::string series = schema::series_identity(row.job);
     if (!wanted(series)) continue;
     if (all.empty() || schema::series_identity(all.back().job) != series)
-      all.push_back({.job = row.job, .pilots = {}});
-    all.back().pilots.push_back(
-        read_pilot(store, row, row.equilibration_id ? spent[*row.equilibration_id] : 0));
-    complete(row, all.back().pilots.back());
+      all.push_back({.job = row.job, .runs = {}});
+    all.back().runs.push_back(
+        read_run(store, row, row.equilibration_id ? spent[*row.equilibration_id] : 0));
+    complete(row, all.back().runs.back());
   }
   return all;
 }
 
 }  // namespace
 
-std::vector<PilotSeries> read_pilots(const schema::Reader& store) {
+std::vector<FinishedSeries> read_finished_runs(const schema::Reader& store) {
   return read_those(
       store, [](const std::string&) { return true; },
-      [&](const schema::JobRow& row, Pilot& pilot) { read_correlations(store, row, pilot); });
+      [&](const schema::JobRow& row, FinishedRun& run) { read_correlations(store, row, run); });
 }
 
-std::vector<PilotSeries> read_pilots(const schema::Reader& store,
-                                     const std::set<std::string>& wanted) {
+std::vector<FinishedSeries> read_finished_runs(const schema::Reader& store,
+                                               const std::set<std::string>& wanted) {
   return read_those(
       store, [&](const std::string& series) { return wanted.contains(series); },
-      [](const schema::JobRow&, Pilot&) {});
+      [](const schema::JobRow&, FinishedRun&) {});
 }
 
 }  // namespace haff::campaign

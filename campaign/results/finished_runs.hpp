@@ -17,7 +17,7 @@ struct MeshTrial {
 };
 
 // One finished realization.
-struct Pilot {
+struct FinishedRun {
   std::uint64_t seed = 0;
   double tau_max = 0;
   double cpu_seconds = 0;                // of cooling from 0 to tau_max
@@ -28,16 +28,16 @@ struct Pilot {
   std::optional<MeshTrial> mesh = {};              // where correlations are measured
 };
 
-struct PilotSeries {
-  schema::Job job;            // of its first realization
-  std::vector<Pilot> pilots;  // by seed, at least one
+struct FinishedSeries {
+  schema::Job job;                // of its first realization
+  std::vector<FinishedRun> runs;  // by seed, at least one
 };
 
 // All finished cooling jobs, series by series in the order of tables.
-std::vector<PilotSeries> read_pilots(const schema::Reader& store);
+std::vector<FinishedSeries> read_finished_runs(const schema::Reader& store);
 
 // Those of these series only, named by schema::series_identity, and without their correlations.
-std::vector<PilotSeries> read_pilots(const schema::Reader& store,
-                                     const std::set<std::string>& wanted);
+std::vector<FinishedSeries> read_finished_runs(const schema::Reader& store,
+                                               const std::set<std::string>& wanted);
 
 }  // namespace haff::campaign

@@ -1,0 +1,26 @@
+// Differences between gases that started from the same states, seed by seed: those of different e,
+// or with and without an effect that equilibrium does not know. What chance does to both alike is
+// not in the error of such a difference, which is therefore often the smaller one, at no cost.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "campaign/accuracy/quantity.hpp"
+
+namespace haff::campaign {
+
+struct Difference {
+  Quantity quantity;
+  schema::Job job, reference;  // of one seed each
+  std::size_t pairs = 0;       // seeds that both have, two at least
+  double value = 0;            // mean of job's less reference's
+  double error = 0;            // standard error of value
+  double independent = 0;      // what it would be of as many seeds that have nothing in common
+};
+
+// Of each series and the next one that shares its equilibrations, for these quantities.
+std::vector<Difference> paired_differences(const std::vector<FinishedSeries>& all,
+                                           const std::vector<Quantity>& quantities);
+
+}  // namespace haff::campaign
