@@ -1,11 +1,13 @@
 // Figure 2: how long the homogeneous stage lasts, tau_c against 2 gamma_0, beside the published
-// values and the energy equation's.
+// values and the energy equation's; as an inset tau_c over that of the energy equation, where error
+// bars can be seen.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "analysis/theory/cooling.hpp"
@@ -39,6 +41,40 @@ Curve theory(double least, double most) {
   return curve;
 }
 
+// y of each point over the energy equation's.
+Curve over_theory(Curve curve) {
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    const double e = std::sqrt(1 - 3 * curve.x[i]);
+    const double theory = analysis::energy_equation_tau_c({.e = e, .n = base_density});
+    curve.y[i] /= theory;
+    if (i < curve.error.size()) curve.error[i] /= theory;
+  }
+  return curve;
+}
+
+Panel ratios(const Curve& paper, const Curve& measured, double low, double high) {
+  Panel inset{.name = "ratio",
+              .x = {.column = "two_gamma0",
+                    .logarithmic = true,
+                    .low = low,
+                    .high = high,
+                    .tics = "(0.02, 0.05, 0.1, 0.2)"},
+              .y = {.label = "{/:Italic τ}_c / theory", .column = "ratio"},
+              .curves = {over_theory(paper), over_theory(measured)},
+              .legend = "none",
+              .small = true,
+              .frame = {{0.60, 0.94, 0.63, 0.94}}};
+  const Range range = y_range(inset.curves);
+  const double reach =
+      1.25 * std::max({range.high - 1, 1 - range.low, 0.01});  // of one, to either side
+  inset.y.low = 1 - reach;
+  inset.y.high = 1 + reach;
+  inset.y.tics = fmt::format("{:g}", round_step(reach / 2));
+  inset.commands.push_back(
+      "set arrow from graph 0, first 1 to graph 1, first 1 nohead back lw 1 lc rgb '#888888'");
+  return inset;
+}
+
 std::string note(const std::vector<MeanTauC>& measured) {
   std::map<std::pair<std::int64_t, std::string>, std::string> groups;
   for (const MeanTauC& each : measured) {
@@ -53,11 +89,16 @@ std::string note(const std::vector<MeanTauC>& measured) {
   for (const auto& [key, list] : groups) {
     text += fmt::format("; {}: N = {}, realizations: {}", list, count_text(key.first), key.second);
   }
+  std::set<std::string> versions;
+  for (const MeanTauC& each : measured)
+    versions.insert(each.code_versions.begin(), each.code_versions.end());
   const bool errors =
       std::ranges::any_of(measured, [](const MeanTauC& t) { return std::isfinite(t.error); });
-  return text + (errors ? ". Bars: 68 % intervals of the mean (Student's t). All e start from the "
-                          "same states."
-                        : ".");
+  text += errors ? ". Bars: 68 % intervals of the mean (Student's t). All e start from the "
+                   "same states."
+                 : ".";
+  if (!versions.empty()) text += fmt::format(" haff {}.", fmt::join(versions, ", "));
+  return text;
 }
 
 }  // namespace
@@ -109,7 +150,9 @@ std::optional<Plot> figure_02(const Averages& averages) {
   const Range range = y_range(panel.curves, true);
   panel.y.low = range.low / room;
   panel.y.high = range.high * room;
-  return Plot{.panels = {panel}, .caption = note(chosen)};
+  panel.legend = "bottom left";
+  return Plot{.panels = {panel, ratios(paper, measured, *panel.x.low, *panel.x.high)},
+              .caption = note(chosen)};
 }
 
 }  // namespace haff::campaign

@@ -1,5 +1,5 @@
 // Figure 3: the velocity distribution rho(c) at several tau through tau_c at e = 0.80, beside the
-// Gaussian exp(-c^2).
+// Gaussian exp(-c^2); as an inset the ratio of the two, where it is known to a fifth.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,6 +28,43 @@ Curve gaussian() {
     curve.y.push_back(std::exp(-c * c));
   }
   return curve;
+}
+
+Curve over_gaussian(const Curve& curve) {
+  constexpr double known = 0.2;  // relative error beyond which a ratio says nothing
+  Curve ratio = curve;
+  ratio.x.clear();
+  ratio.y.clear();
+  ratio.error.clear();
+  ratio.realizations.clear();
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    const double error = curve.error_at(i);
+    if (!(curve.y[i] > 0) || error > known * curve.y[i]) continue;
+    const double gauss = std::exp(-curve.x[i] * curve.x[i]);
+    ratio.x.push_back(curve.x[i]);
+    ratio.y.push_back(curve.y[i] / gauss);
+    ratio.error.push_back(error / gauss);
+    ratio.realizations.push_back(curve.realizations[i]);
+  }
+  ratio.legend = "";
+  ratio.size = 0.35;
+  return ratio;
+}
+
+Panel ratios(const std::vector<Curve>& curves) {
+  Panel inset{.name = "ratio",
+              .x = {.column = "c", .low = 0, .high = 3},
+              .y = {.label = "{/:Italic ρ} / exp(−{/:Italic c}^2)", .column = "ratio"},
+              .legend = "none",
+              .small = true,
+              .frame = {{0.70, 0.955, 0.69, 0.955}}};
+  for (const Curve& curve : curves) inset.curves.push_back(over_gaussian(curve));
+  inset.y.low = 0.5;
+  inset.y.high = 1.5;
+  inset.y.tics = "0.25";
+  inset.commands.push_back(
+      "set arrow from graph 0, first 1 to graph 1, first 1 nohead back lw 1 lc rgb '#000000'");
+  return inset;
 }
 
 // Profiles nearest to the stages, each once.
@@ -69,8 +106,9 @@ std::optional<Plot> figure_03(const Averages& averages) {
     curve.colour = shade(panel.curves.size(), profiles.size());
     panel.curves.push_back(until(fastest, std::move(curve)));
   }
+  Panel inset = ratios(panel.curves);
   panel.curves.push_back(gaussian());
-  return Plot{.panels = {panel}, .caption = provenance({series}) + error_note({series})};
+  return Plot{.panels = {panel, inset}, .caption = provenance({series}) + error_note({series})};
 }
 
 }  // namespace haff::campaign

@@ -1,5 +1,7 @@
-// Figure 10: velocity correlations at e = 0.80 fall on one curve for 20 <= tau <= 60 when lengths
-// are measured in sigma sqrt(tau) and G in T_0 / (m tau^(d/2)): diffusion of vorticity.
+// Figure 10: velocity correlations at e = 0.80 for 20 <= tau <= 60, with lengths measured in
+// sigma sqrt(tau) and G in T_0 / (m tau^(d/2)): were it for the diffusion of vorticity alone, they
+// would fall on one curve. Beside them the theory of an incompressible fluid at the first and the
+// last tau, which does not quite do so either.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +9,7 @@
 #include <utility>
 
 #include "analysis/theory/cooling.hpp"
+#include "analysis/theory/correlations.hpp"
 #include "campaign/paper/figure.hpp"
 
 namespace haff::campaign {
@@ -25,6 +28,28 @@ Curve scaled(const MeanSeries& series, const MeanProfile& profile) {
   }
   curve.realizations.assign(curve.x.size(), profile.realizations);
   curve.look = Look::symbols;
+  return curve;
+}
+
+// What the theory of an incompressible fluid has at this tau.
+Curve theory(const MeanSeries& series, const ScaledCorrelation& measured, const char* name,
+             double analysis::VelocityCorrelation::*part, double end) {
+  Curve curve{.name = fmt::format("{}, incompressible, tau = {:g}", name, measured.tau),
+              .source = Source::theory,
+              .e = series.e,
+              .n = series.n};
+  curve.colour = measured.curve.colour;
+  curve.width = 1.2;
+  constexpr int points = 120;
+  for (int i = 1; i <= points; ++i) {
+    const double x = end * i / points;
+    const auto correlation =
+        analysis::velocity_correlation({.e = series.e, .n = series.n}, x * std::sqrt(measured.tau),
+                                       measured.tau, analysis::Fluid::incompressible);
+    curve.x.push_back(x);
+    curve.y.push_back(correlation.*part * std::pow(measured.tau, 1.5) /
+                      analysis::initial_temperature());
+  }
   return curve;
 }
 
@@ -51,11 +76,14 @@ std::optional<Plot> figure_10(const Averages& averages) {
   const auto perpendicular = scaled_correlations(series, "G_perpendicular");
   if (parallel.size() < 2) return std::nullopt;
 
+  double end = 0;
+  for (const auto& each : parallel) end = std::max(end, each.curve.x.back());
+  end = std::min(end, farthest);
   Panel panel{
       .x = {.label = "{/:Italic r} / ({/:Italic σ} {/:Italic τ}^{ 1/2})",
             .column = "r_scaled",
             .low = 0,
-            .high = farthest},
+            .high = end},
       .y = {.label = "{/:Italic G τ}^{3/2} {/:Italic m} / {/:Italic T}_0", .column = "G_scaled"}};
   for (const auto& each : parallel) panel.curves.push_back(until(farthest, each.curve));
   for (const auto& each : perpendicular) {
@@ -64,6 +92,13 @@ std::optional<Plot> figure_10(const Averages& averages) {
     panel.curves.back().legend = "";
   }
   const Range range = y_range(panel.curves);
+  for (const ScaledCorrelation* each : {&parallel.front(), &parallel.back()}) {
+    panel.curves.push_back(
+        theory(series, *each, "G_parallel", &analysis::VelocityCorrelation::parallel, end));
+    panel.curves.push_back(theory(series, *each, "G_perpendicular",
+                                  &analysis::VelocityCorrelation::perpendicular, end));
+  }
+  panel.curves.push_back({.legend = "incompressible theory", .width = 1.2});
   Curve key{.legend = "{/:Italic G}_{∥}", .look = Look::symbols};
   panel.curves.push_back(key);
   key.legend = "{/:Italic G}_{⊥}";

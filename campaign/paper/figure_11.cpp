@@ -9,6 +9,7 @@
 #include "analysis/theory/energy_equation.hpp"
 #include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/paper/figure.hpp"
+#include "campaign/paper/interval_means.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -21,6 +22,9 @@ double early(const std::vector<MeanSeries>& chosen) {
       analysis::energy_equation_tau_c({.e = chosen.front().e, .n = base_density});
   return std::min(chosen.front().tau.back(), 10 * std::ceil(crossover / 10));
 }
+
+// Samples of tau = 1 crowd where curves lie close together.
+constexpr Intervals intervals{.from = 4, .width = 3};
 
 std::vector<double> times(double end) {
   constexpr int points = 200;
@@ -59,11 +63,8 @@ std::optional<Plot> figure_11(const Averages& averages) {
               .legend = "bottom left"};
   for (const MeanSeries& series : chosen) {
     Curve curve = measured_curve(series);
-    // A sample holds the mean over the interval before it: it belongs to the middle.
-    for (const double tau : series.tau) curve.x.push_back(tau - series.sample_every / 2);
-    curve.y = series.gamma_ratio.value;
-    curve.error = series.gamma_ratio.error;
-    curve = until(end, std::move(curve));
+    curve.realizations.clear();
+    add_interval_means(series, RunValue::gamma_ratio, intervals, end, curve);
     curve.look = Look::symbols;
     curve.colour = colour(panel.curves.size(), chosen.size());
     panel.curves.push_back(std::move(curve));
@@ -91,7 +92,11 @@ std::optional<Plot> figure_11(const Averages& averages) {
   const Range range = y_range(panel.curves);
   panel.y.low = range.low - 0.04 * range.width();
   panel.y.high = range.high + 0.04 * range.width();
-  return Plot{.panels = {panel}, .caption = provenance(chosen) + error_note(chosen)};
+  return Plot{.panels = {panel},
+              .caption = provenance(chosen) +
+                         fmt::format(" From τ = {:g} on, means over Δτ = {:g}.", intervals.from,
+                                     intervals.width) +
+                         error_note(chosen)};
 }
 
 }  // namespace haff::campaign

@@ -10,11 +10,15 @@
 #include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/paper/figure.hpp"
+#include "campaign/paper/interval_means.hpp"
 
 namespace haff::campaign {
 namespace {
 
 constexpr double restitution = densities_restitution;
+
+// Samples of tau = 1 crowd where curves lie close together.
+constexpr Intervals intervals{.from = 4, .width = 3};
 
 std::vector<double> times(double end) {
   constexpr int points = 200;
@@ -54,6 +58,21 @@ Curve boltzmann(double end) {
   return curve;
 }
 
+// The same again where curves of dilute gases lie, which differ by less than a hundredth.
+Panel dilute(Panel panel) {
+  constexpr double densest = 0.2;
+  std::erase_if(panel.curves, [](const Curve& curve) {
+    return curve.x.empty() || (curve.n && *curve.n > densest);
+  });
+  for (Curve& curve : panel.curves) curve.legend = "";
+  panel.name = "dilute";
+  panel.legend = "none";
+  panel.y.low = 0.96;
+  panel.y.high = 1.01;
+  panel.frame = {{0.59, 0.98, 0.215, 0.975}};
+  return panel;
+}
+
 }  // namespace
 
 std::optional<Plot> figure_12(const Averages& averages) {
@@ -72,11 +91,8 @@ std::optional<Plot> figure_12(const Averages& averages) {
     Curve curve = measured_curve(series);
     curve.name = "n = " + density_text(series.n);
     curve.legend = "{/:Italic n} = " + density_text(series.n);
-    // A sample holds the mean over the interval before it: it belongs to the middle.
-    for (const double tau : series.tau) curve.x.push_back(tau - series.sample_every / 2);
-    curve.y = series.gamma_ratio.value;
-    curve.error = series.gamma_ratio.error;
-    curve = until(end, std::move(curve));
+    curve.realizations.clear();
+    add_interval_means(series, RunValue::gamma_ratio, intervals, end, curve);
     curve.look = Look::symbols;
     curve.colour = shade(panel.curves.size(), chosen.size());
     for (const auto velocities :
@@ -95,7 +111,13 @@ std::optional<Plot> figure_12(const Averages& averages) {
   const Range range = y_range(panel.curves);
   panel.y.low = range.low - 0.04 * range.width();
   panel.y.high = range.high + 0.04 * range.width();
-  return Plot{.panels = {panel}, .caption = provenance(chosen) + error_note(chosen)};
+  panel.frame = {{0.09, 0.50, 0.215, 0.975}};
+  return Plot{.panels = {panel, dilute(panel)},
+              .caption = provenance(chosen) +
+                         fmt::format(" From τ = {:g} on, means over Δτ = {:g}.", intervals.from,
+                                     intervals.width) +
+                         error_note(chosen),
+              .width = 960};
 }
 
 }  // namespace haff::campaign

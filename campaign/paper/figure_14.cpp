@@ -10,42 +10,16 @@
 
 #include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/paper/figure.hpp"
+#include "campaign/paper/interval_means.hpp"
 
 namespace haff::campaign {
 namespace {
 
 // One sample of a_2 is noise of the size of the value that it settles to. While a_2 still changes,
 // each sample is a point; later ones are averaged over intervals of tau that change little in it.
-constexpr double settled = 6;   // tau
-constexpr double interval = 5;  // tau
+constexpr Intervals intervals{.from = 6, .width = 5};
 
-using RunValues = std::vector<double> Realization::*;
-
-// The mean of samples first ... last - 1 with its error, over realizations.
-analysis::Estimate mean_of_samples(const MeanSeries& series, RunValues values, std::size_t first,
-                                   std::size_t last) {
-  std::vector<double> means;
-  for (const Realization& run : series.runs) {
-    if (run.tau.size() < last) continue;
-    const auto begin = (run.*values).begin();
-    means.push_back(analysis::estimate({begin + static_cast<std::ptrdiff_t>(first),
-                                        begin + static_cast<std::ptrdiff_t>(last)})
-                        .mean);
-  }
-  return analysis::estimate(means);
-}
-
-// Where the interval that begins with this sample ends.
-std::size_t interval_end(const MeanSeries& series, std::size_t first, double end) {
-  if (series.tau[first] < settled) return first + 1;
-  std::size_t last = first + 1;
-  while (last < series.tau.size() && series.tau[last] <= end &&
-         series.tau[last] < series.tau[first] + interval)
-    ++last;
-  return last;
-}
-
-Curve measured(const MeanSeries& series, RunValues values, bool rate, double end) {
+Curve measured(const MeanSeries& series, RunValue value, double end) {
   Curve curve = measured_curve(series);
   curve.name = series.shuffled_every ? fmt::format("shuffled every {:g}", *series.shuffled_every)
                                      : "not shuffled";
@@ -54,17 +28,7 @@ Curve measured(const MeanSeries& series, RunValues values, bool rate, double end
                      : curve.name;
   curve.realizations.clear();
   curve.look = Look::symbols;
-  // A rate is that of the interval before its sample; there is none before the first.
-  for (std::size_t i = rate ? 1 : 0; i < series.tau.size() && series.tau[i] <= end;) {
-    const std::size_t last = interval_end(series, i, end);
-    const auto mean = mean_of_samples(series, values, i, last);
-    const double middle = 0.5 * (series.tau[i] + series.tau[last - 1]);
-    curve.x.push_back(rate ? middle - 0.5 * series.sample_every : middle);
-    curve.y.push_back(mean.mean);
-    curve.error.push_back(mean.standard_error);
-    curve.realizations.push_back(static_cast<std::int64_t>(mean.count));
-    i = last;
-  }
+  add_interval_means(series, value, intervals, end, curve);
   return curve;
 }
 
@@ -90,9 +54,9 @@ Panel panel(const std::vector<const MeanSeries*>& gases, bool rate, double end) 
                .y = {.label = rate ? "{/:Italic γ}/{/:Italic γ}_0" : "{/:Italic a}_2",
                      .column = rate ? "gamma_ratio" : "a2"},
                .legend = rate ? "bottom left" : "none"};
-  const RunValues values = rate ? &Realization::gamma_ratio : &Realization::a2;
+  const RunValue value = rate ? RunValue::gamma_ratio : RunValue::a2;
   for (const MeanSeries* series : gases) {
-    result.curves.push_back(measured(*series, values, rate, end));
+    result.curves.push_back(measured(*series, value, end));
     result.curves.back().colour = colour(result.curves.size() - 1, gases.size());
   }
   result.curves.push_back(theory(gases.front()->e, end, rate));
@@ -140,7 +104,7 @@ std::optional<Plot> figure_14(const Averages& averages) {
   rate.frame = {{0.59, 0.975, 0.215, 0.96}};
   return Plot{.panels = {a2, rate},
               .caption = fmt::format("{} From τ = {:g} on, means over Δτ = {:g}.{}",
-                                     provenance({*gases.front()}), settled, interval,
+                                     provenance({*gases.front()}), intervals.from, intervals.width,
                                      coefficient_error_note({*gases.front()})),
               .width = 960};
 }

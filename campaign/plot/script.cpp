@@ -185,6 +185,7 @@ std::string axis_commands(const Axis& axis, char letter) {
   std::string text = fmt::format("set {}label {}\n", letter, in_quotes(axis.label));
   text += fmt::format("{} logscale {}\n", axis.logarithmic ? "set" : "unset", letter);
   text += fmt::format("set {}range [{}:{}]\n", letter, bound(axis.low), bound(axis.high));
+  text += fmt::format("set format {} '%g'\n", letter);  // tics may name another
   text += fmt::format("set {}tics {}\n", letter, axis.tics.empty() ? "autofreq" : axis.tics);
   text += fmt::format("set m{}tics {}\n", letter, axis.logarithmic ? "10" : "2");
   return text;

@@ -260,9 +260,9 @@ std::optional<MeanTauC> mean_tau_c(const MeanSeries& series) {
                   .reached = std::ssize(reached),
                   .tau_c = estimate.mean,
                   .error = bar(estimate.standard_error, std::ssize(reached)),
-                  .half_interval = reached.size() > 1
-                                       ? analysis::half_interval(estimate, reached.size())
-                                       : none};
+                  .half_interval =
+                      reached.size() > 1 ? analysis::half_interval(estimate, reached.size()) : none,
+                  .code_versions = series.code_versions};
 }
 
 std::vector<MeanSeries> choose_series(const Averages& averages, double n, Observable observable) {

@@ -92,6 +92,7 @@ struct MeanTauC {
   double tau_c = 0;
   double error = 0;          // as in Means
   double half_interval = 0;  // of 95 %, by Student's t; NaN for one realization
+  std::set<std::string> code_versions = {};
 };
 
 struct Averages {

@@ -209,7 +209,8 @@ TEST_CASE("figure 11: a decay rate belongs to the middle of its interval") {
   REQUIRE(plot);
   const Curve& measured = plot->panels.front().curves.front();
   REQUIRE(measured.source == Source::measured);
-  CHECK(measured.x[1] == 1);  // of the sample at tau = 2
+  CHECK(measured.x[0] == 1);  // of the sample at tau = 2
+  CHECK(measured.x[1] == 4);  // of those at 4 and 6, which are the time from 2 to 6
 }
 
 TEST_CASE("figure 13: where E - E_Haff meets E_Haff is tau_c") {
