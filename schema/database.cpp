@@ -11,6 +11,7 @@
 
 #include "schema/embedded.hpp"
 #include "schema/store.hpp"
+#include "schema/views.hpp"
 
 namespace haff::schema {
 
@@ -19,10 +20,14 @@ namespace {
 constexpr std::string_view in_memory = ":memory:";
 
 // The scripts 001-....sql, 002-....sql in their order: a store's version is how many it has seen.
+// Whatever brings a store to the newest version ends with the last one, and with it the views are
+// made anew.
 std::vector<std::string_view> scripts() {
   std::vector<std::string_view> texts;
   for (const Embedded& file : embedded())
     if (file.name.ends_with(".sql")) texts.push_back(file.text);
+  static const std::string last_and_views = std::string(texts.back()) + mean_views_script();
+  texts.back() = last_and_views;
   return texts;
 }
 

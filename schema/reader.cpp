@@ -246,7 +246,7 @@ std::optional<Invariants> Reader::invariants(std::int64_t job_id) const {
     if (!row.executeStep()) return std::nullopt;
     return Invariants{.largest_overlap = real(row, "largest_overlap"),
                       .past_events = integer(row, "past_events", 0),
-                      .watchdog_trips = integer(row, "watchdog_trips", 0),
+                      .unresolved_collisions = integer(row, "unresolved_collisions", 0),
                       .energy_mismatch = not_negative(row, "energy_mismatch"),
                       .momentum_removed = not_negative(row, "momentum_removed")};
   });

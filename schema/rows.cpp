@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "schema/sample_columns.hpp"
+
 namespace haff::schema {
 
 namespace {
@@ -101,7 +103,9 @@ JobRow job_row(const SQLite::Statement& row) {
              .started = optional(row, "started", timestamp),
              .finished = optional(row, "finished", timestamp),
              .code_version = optional_text(row, "code_version"),
-             .host = optional_text(row, "host")};
+             .host = optional_text(row, "host"),
+             .series = text(row, "series"),
+             .starts_over = integer(row, "starts_over", 0, 1) == 1};
   must_be_countable(job.job, job.tau_max);
   return job;
 }
@@ -120,22 +124,10 @@ Progress progress_of(const SQLite::Statement& row) {
 }
 
 Sample sample(const SQLite::Statement& row) {
-  return {.tau = not_negative(row, "tau"),
-          .time = not_negative(row, "time"),
-          .temperature = optional_real(row, "temperature"),
-          .gamma_ratio = optional_real(row, "gamma_ratio"),
-          .collision_rate = optional_real(row, "collision_rate"),
-          .pressure = optional_real(row, "pressure"),
-          .a2 = optional_real(row, "a2"),
-          .a3 = optional_real(row, "a3"),
-          .a4 = optional_real(row, "a4"),
-          .a5 = optional_real(row, "a5"),
-          .a6 = optional_real(row, "a6"),
-          .correlation_trace = optional_real(row, "correlation_trace"),
-          .largest_cluster = optional_real(row, "largest_cluster"),
-          .rotational_temperature = optional_real(row, "rotational_temperature"),
-          .temperature_1 = optional_real(row, "temperature_1"),
-          .temperature_2 = optional_real(row, "temperature_2")};
+  Sample sample{.tau = not_negative(row, "tau"), .time = not_negative(row, "time")};
+  for (const SampleColumn& column : sample_columns)
+    sample.*column.value = optional_real(row, column.name);
+  return sample;
 }
 
 CheckpointInfo checkpoint_info(const SQLite::Statement& row) {

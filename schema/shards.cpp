@@ -31,8 +31,9 @@ const std::set<std::string> of_this_store{"job_id",        "equilibration_id", "
                                           "owner_started", "renewed"};
 
 // Columns of jobs that say how far the job is, and where it was worked on.
-constexpr std::array progress_columns{"tau",     "collisions", "attempts",     "error",
-                                      "started", "finished",   "code_version", "host"};
+constexpr std::array progress_columns{"tau",      "collisions",   "attempts",
+                                      "error",    "starts_over",  "started",
+                                      "finished", "code_version", "host"};
 
 // Two C libraries differ in the last digits of a logarithm, two FFT libraries in those of a
 // transform. Everything else is decided by the trajectory, and equal in every bit.
@@ -233,6 +234,7 @@ bool has_ended(Status status) {
 // tau up to which a job is kept: its end, or its newest state. The tau of a running job is only
 // what its worker last reported.
 double kept_tau(SQLite::Database& sqlite, const JobRow& row) {
+  if (row.starts_over) return 0;
   if (has_ended(row.status) && row.status != Status::failed) return row.progress.tau;
   SQLite::Statement statement(sqlite, "SELECT tau FROM checkpoints WHERE job_id = ?");
   statement.bind(1, row.job_id);

@@ -10,6 +10,7 @@
 #include "schema/checksum.hpp"
 #include "schema/database.hpp"
 #include "schema/rows.hpp"
+#include "schema/sample_columns.hpp"
 
 namespace haff::schema {
 
@@ -120,14 +121,30 @@ void report(SQLite::Database& sqlite, const Lease& lease, const Progress& progre
   statement.exec();
 }
 
+// A job that has come to its end from its start, without a new state on the way: the damaged one
+// has served its time.
+void drop_unused_state(SQLite::Database& sqlite, const Lease& lease) {
+  for (const char* sql : {"DELETE FROM checkpoint_chunks WHERE job_id IN "
+                          "(SELECT job_id FROM jobs WHERE job_id = ? AND starts_over)",
+                          "DELETE FROM checkpoints WHERE job_id IN "
+                          "(SELECT job_id FROM jobs WHERE job_id = ? AND starts_over)",
+                          "UPDATE jobs SET starts_over = 0 WHERE job_id = ?"}) {
+    SQLite::Statement statement(sqlite, sql);
+    statement.bind(1, lease.job_id);
+    statement.exec();
+  }
+}
+
 // The end of a lease. The job is where its last checkpoint is.
 void leave(SQLite::Database& sqlite, const Lease& lease, Status status) {
   SQLite::Statement statement(sqlite, R"(
     UPDATE jobs SET
       status = :status,
       owner_boot_id = NULL, owner_pid = NULL, owner_started = NULL, renewed = NULL,
-      tau = coalesce((SELECT tau FROM checkpoints WHERE job_id = :job_id), 0),
-      collisions = coalesce((SELECT collisions FROM checkpoints WHERE job_id = :job_id), 0),
+      tau = iif(starts_over, 0,
+                coalesce((SELECT tau FROM checkpoints WHERE job_id = :job_id), 0)),
+      collisions = iif(starts_over, 0,
+                       coalesce((SELECT collisions FROM checkpoints WHERE job_id = :job_id), 0)),
       finished = iif(:status = 'pending', NULL, )" +
                                           now + R"()
     WHERE job_id = :job_id)");
@@ -137,16 +154,9 @@ void leave(SQLite::Database& sqlite, const Lease& lease, Status status) {
 }
 
 void must_be_finite(const Lease& lease, const Sample& sample) {
-  const auto finite = [](const std::optional<double>& value) {
-    return !value || std::isfinite(*value);
-  };
-  const bool sound = std::isfinite(sample.tau) && std::isfinite(sample.time) &&
-                     finite(sample.temperature) && finite(sample.gamma_ratio) &&
-                     finite(sample.collision_rate) && finite(sample.pressure) &&
-                     finite(sample.a2) && finite(sample.a3) && finite(sample.a4) &&
-                     finite(sample.a5) && finite(sample.a6) && finite(sample.correlation_trace) &&
-                     finite(sample.largest_cluster) && finite(sample.rotational_temperature) &&
-                     finite(sample.temperature_1) && finite(sample.temperature_2);
+  bool sound = std::isfinite(sample.tau) && std::isfinite(sample.time);
+  for (const SampleColumn& column : sample_columns)
+    sound = sound && std::isfinite((sample.*column.value).value_or(0));
   if (!sound)
     throw Damage("job " + std::to_string(lease.job_id) + ": the sample at tau = " +
                  std::to_string(sample.tau) + " holds a value that is not finite");
@@ -168,32 +178,25 @@ void must_agree(SQLite::Database& sqlite, const Lease& lease, const Sample& agai
 }
 
 void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Sample>& samples) {
-  SQLite::Statement statement(sqlite, R"(
-    INSERT INTO samples VALUES (:job_id, :tau, :time, :temperature, :gamma_ratio,
-                                :collision_rate, :pressure, :a2, :a3, :a4, :a5, :a6,
-                                :correlation_trace, :largest_cluster, :rotational_temperature,
-                                :temperature_1, :temperature_2)
-    ON CONFLICT DO NOTHING)");
+  std::string names = "job_id, tau, time", places = "?, ?, ?";
+  for (const SampleColumn& column : sample_columns) {
+    names += std::string(", ") + column.name;
+    places += ", ?";
+  }
+  SQLite::Statement statement(
+      sqlite, "INSERT INTO samples (" + names + ") VALUES (" + places + ") ON CONFLICT DO NOTHING");
   for (const Sample& sample : samples) {
     must_be_finite(lease, sample);
     statement.reset();
-    statement.bind(":job_id", lease.job_id);
-    statement.bind(":tau", sample.tau);
-    statement.bind(":time", sample.time);
-    bind(statement, ":temperature", sample.temperature);
-    bind(statement, ":gamma_ratio", sample.gamma_ratio);
-    bind(statement, ":collision_rate", sample.collision_rate);
-    bind(statement, ":pressure", sample.pressure);
-    bind(statement, ":a2", sample.a2);
-    bind(statement, ":a3", sample.a3);
-    bind(statement, ":a4", sample.a4);
-    bind(statement, ":a5", sample.a5);
-    bind(statement, ":a6", sample.a6);
-    bind(statement, ":correlation_trace", sample.correlation_trace);
-    bind(statement, ":largest_cluster", sample.largest_cluster);
-    bind(statement, ":rotational_temperature", sample.rotational_temperature);
-    bind(statement, ":temperature_1", sample.temperature_1);
-    bind(statement, ":temperature_2", sample.temperature_2);
+    statement.clearBindings();
+    statement.bind(1, lease.job_id);
+    statement.bind(2, sample.tau);
+    statement.bind(3, sample.time);
+    int place = 4;
+    for (const SampleColumn& column : sample_columns) {
+      if (const auto& value = sample.*column.value) statement.bind(place, *value);
+      ++place;
+    }
     if (statement.exec() == 0) must_agree(sqlite, lease, sample);
   }
 }
@@ -201,8 +204,10 @@ void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Samp
 // Profiles that are there already are kept: the samples beside them say whether the gas is the
 // same, and the last digits of a transform may differ between two libraries.
 void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Profile>& profiles) {
-  SQLite::Statement statement(sqlite,
-                              "INSERT INTO profiles VALUES (?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
+  SQLite::Statement statement(
+      sqlite,
+      "INSERT INTO profiles (job_id, name, tau, x, value) VALUES (?, ?, ?, ?, ?) "
+      "ON CONFLICT DO NOTHING");
   for (const Profile& profile : profiles) {
     if (profile.x.size() != profile.value.size())
       throw std::logic_error("the profile " + profile.name + " has not as many values as places");
@@ -225,7 +230,9 @@ void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Prof
 void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Field>& fields) {
   static_assert(std::endian::native == std::endian::little, "the store holds little-endian reals");
   SQLite::Statement statement(
-      sqlite, "INSERT INTO fields VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
+      sqlite,
+      "INSERT INTO fields (job_id, name, tau, cells, components, box, data) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
   for (const Field& field : fields) {
     statement.reset();
     statement.bind(1, lease.job_id);
@@ -247,7 +254,10 @@ void replace(SQLite::Database& sqlite, const Lease& lease, const Checkpoint& che
   drop.exec();
 
   SQLite::Statement header(
-      sqlite, "INSERT OR REPLACE INTO checkpoints VALUES (?, ?, ?, ?, ?, " + now + ")");
+      sqlite,
+      "INSERT OR REPLACE INTO checkpoints (job_id, tau, collisions, bytes, checksum, created) "
+      "VALUES (?, ?, ?, ?, ?, " +
+          now + ")");
   header.bind(1, lease.job_id);
   header.bind(2, checkpoint.tau);
   header.bind(3, checkpoint.collisions);
@@ -255,7 +265,8 @@ void replace(SQLite::Database& sqlite, const Lease& lease, const Checkpoint& che
   header.bind(5, static_cast<std::int64_t>(sum));
   header.exec();
 
-  SQLite::Statement insert(sqlite, "INSERT INTO checkpoint_chunks VALUES (?, ?, ?)");
+  SQLite::Statement insert(
+      sqlite, "INSERT INTO checkpoint_chunks (job_id, position, bytes) VALUES (?, ?, ?)");
   const std::span<const std::byte> state(checkpoint.state);
   for (std::size_t begin = 0; begin < state.size(); begin += chunk_bytes) {
     const auto chunk = state.subspan(begin, std::min(chunk_bytes, state.size() - begin));
@@ -266,20 +277,23 @@ void replace(SQLite::Database& sqlite, const Lease& lease, const Checkpoint& che
     insert.exec();
   }
 
-  SQLite::Statement progress(sqlite, "UPDATE jobs SET attempts = 0 WHERE job_id = ?");
+  SQLite::Statement progress(sqlite,
+                             "UPDATE jobs SET attempts = 0, starts_over = 0 WHERE job_id = ?");
   progress.bind(1, lease.job_id);
   progress.exec();
 }
 
 void replace(SQLite::Database& sqlite, const Lease& lease, const Invariants& invariants) {
   SQLite::Statement statement(sqlite, R"(
-    INSERT OR REPLACE INTO invariants VALUES (:job_id, :largest_overlap, :past_events,
-                                              :watchdog_trips, :energy_mismatch,
-                                              :momentum_removed))");
+    INSERT OR REPLACE INTO invariants
+      (job_id, largest_overlap, past_events, unresolved_collisions, energy_mismatch,
+       momentum_removed)
+    VALUES (:job_id, :largest_overlap, :past_events, :unresolved_collisions, :energy_mismatch,
+            :momentum_removed))");
   statement.bind(":job_id", lease.job_id);
   statement.bind(":largest_overlap", invariants.largest_overlap);
   statement.bind(":past_events", invariants.past_events);
-  statement.bind(":watchdog_trips", invariants.watchdog_trips);
+  statement.bind(":unresolved_collisions", invariants.unresolved_collisions);
   statement.bind(":energy_mismatch", invariants.energy_mismatch);
   statement.bind(":momentum_removed", invariants.momentum_removed);
   statement.exec();
@@ -310,7 +324,8 @@ class Entry {
 
 void replace(SQLite::Database& sqlite, const Lease& lease, const Results& results) {
   SQLite::Statement statement(sqlite,
-                              "INSERT OR REPLACE INTO results VALUES (:job_id, :tau_c, :time_c)");
+                              "INSERT OR REPLACE INTO results (job_id, tau_c, time_c) "
+                              "VALUES (:job_id, :tau_c, :time_c)");
   statement.bind(":job_id", lease.job_id);
   bind(statement, ":tau_c", results.tau_c);
   bind(statement, ":time_c", results.time_c);
@@ -360,6 +375,7 @@ void Store::predict(const Target& target, const Prediction& prediction) {
   database().transaction([&] {
     SQLite::Statement statement(database().sqlite(), R"(
       INSERT INTO target_predictions
+        (series, quantity, tau_from, tau_to, se, realizations, cpu_seconds, created)
       VALUES (:series, :quantity, :tau_from, :tau_to, :se, :realizations, :cpu_seconds, )" +
                                                          now + ") ON CONFLICT DO NOTHING");
     statement.bind(":series", target.series);
@@ -412,7 +428,8 @@ std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_ve
                  .checkpoint_every = row.checkpoint_every,
                  .equilibration_id = row.equilibration_id,
                  .attempts = row.attempts,
-                 .cpu_seconds = row.progress.cpu_seconds};
+                 .cpu_seconds = row.progress.cpu_seconds,
+                 .starts_over = row.starts_over};
   });
 }
 
@@ -441,6 +458,7 @@ Status Store::finish(const Lease& lease, const Commit& commit,
     row.executeStep();
     const bool extended = real(row, "tau_max") > tau_max;
     const Status status = extended ? Status::pending : Status::done;
+    drop_unused_state(sqlite, lease);
     leave(sqlite, lease, status);
     if (!extended) report(sqlite, lease, commit.progress);
 
@@ -476,6 +494,7 @@ void Store::collapse(const Lease& lease, const Commit& commit, const std::string
     statement.bind(1, printable(what));
     statement.bind(2, lease.job_id);
     statement.exec();
+    drop_unused_state(sqlite, lease);
     leave(sqlite, lease, Status::collapsed);
     report(sqlite, lease, commit.progress);
   });
@@ -513,11 +532,9 @@ bool Store::restart(std::int64_t job_id) {
     };
     if (change(R"(
           UPDATE jobs SET status = 'pending', attempts = 0, error = NULL, tau = 0, collisions = 0,
-                          finished = NULL
+                          finished = NULL, starts_over = 1
           WHERE job_id = ? AND status <> 'running')") == 0)
       return false;
-    change("DELETE FROM checkpoint_chunks WHERE job_id = ?");
-    change("DELETE FROM checkpoints WHERE job_id = ?");
     change("DELETE FROM invariants WHERE job_id = ?");
     return true;
   });

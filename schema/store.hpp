@@ -106,7 +106,7 @@ struct Results {
 struct Invariants {
   double largest_overlap = 0;  // [sigma]
   std::int64_t past_events = 0;
-  std::int64_t watchdog_trips = 0;
+  std::int64_t unresolved_collisions = 0;
   double energy_mismatch = 0;   // relative
   double momentum_removed = 0;  // relative to sqrt(N) rms speeds
 
@@ -174,6 +174,7 @@ struct Claim {
   std::optional<std::int64_t> equilibration_id;  // a cooling job's; its checkpoint is the start
   int attempts = 0;                              // errors in a row so far
   double cpu_seconds = 0;                        // spent on it before
+  bool starts_over = false;                      // its state is damaged: begin at the start
 };
 
 // What a worker has to say at once, written in one transaction: what was measured before the
@@ -219,6 +220,8 @@ struct JobRow {
   std::optional<double> expected_cpu_seconds;
   std::string created;
   std::optional<std::string> started, finished, code_version, host;
+  std::string series;        // series_identity(job): its realizations have the same
+  bool starts_over = false;  // its state is damaged, and is not used
 };
 
 struct Summary {
@@ -366,9 +369,10 @@ class Store : public Reader {
   // failed -> pending with all attempts. Returns how many.
   std::int64_t retry_failed();
 
-  // For a job whose checkpoint is damaged: throws it away and makes the job pending with all
-  // attempts. Its samples and results stay and are compared when they come out again. False, and
-  // nothing done, if a worker holds the job.
+  // For a job whose checkpoint is damaged: makes the job pending with all attempts, to begin at its
+  // start. The old checkpoint stays, unused, until a new one takes its place; samples and results
+  // stay and are compared when they come out again. False, and nothing done, if a worker holds the
+  // job.
   bool restart(std::int64_t job_id);
 
   // Lend pending jobs to new shards: one transaction. Throws StoreError if a job is no longer

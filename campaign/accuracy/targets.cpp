@@ -46,7 +46,7 @@ std::map<std::string, Runs> runs_by_series(const schema::Reader& store) {
       before[row.job_id] = cpu_seconds_to_come(row);
       continue;
     }
-    Runs& runs = all[schema::series_identity(row.job)];
+    Runs& runs = all[row.series];
     if (is_open(row)) {
       ++runs.open;
       runs.to_come += before[*row.equilibration_id] + cpu_seconds_to_come(row);

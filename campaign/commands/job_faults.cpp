@@ -95,7 +95,7 @@ void check_invariants(const Reader& store, const JobRow& row, Texts& faults) {
   const auto wrong =
       engine::violation({.closest2 = closest * closest,
                          .past_events = seen->past_events,
-                         .unresolved_collisions = seen->watchdog_trips,
+                         .unresolved_collisions = seen->unresolved_collisions,
                          .energy_mismatch = seen->energy_mismatch,
                          .momentum_removed = seen->momentum_removed},
                         engine::allowed_overlap(row.job.n, slowest_period, row.job.d));
@@ -105,13 +105,15 @@ void check_invariants(const Reader& store, const JobRow& row, Texts& faults) {
     faults.push_back(
         fmt::format("{} events lay in the past when their turn came", seen->past_events));
   if (row.status == schema::Status::done &&
-      seen->watchdog_trips >= engine::unresolved_collisions_of_a_collapse)
-    faults.push_back(fmt::format("done, but the watchdog tripped {} times", seen->watchdog_trips));
+      seen->unresolved_collisions >= engine::unresolved_collisions_of_a_collapse)
+    faults.push_back(fmt::format("done, but with {} collisions too slow to be resolved",
+                                 seen->unresolved_collisions));
 }
 
 void check_state(const Reader& store, const JobRow& row, JobFaults& faults) {
   const bool must_have_state =
       row.job.kind == schema::Kind::equilibration && row.status == schema::Status::done;
+  if (row.starts_over) return;  // known, and to be computed again
   try {
     const auto state = stored_state(store, row.job_id, row.job);
     if (!state && must_have_state) faults.state = "done, but its state is gone";

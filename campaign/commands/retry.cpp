@@ -42,7 +42,7 @@ struct Damaged {
 std::vector<Damaged> damaged_jobs(const schema::Reader& store) {
   std::vector<Damaged> damaged;
   for (const schema::JobRow& row : store.jobs()) {
-    if (row.status == schema::Status::running) continue;
+    if (row.status == schema::Status::running || row.starts_over) continue;
     if (!damage_of(store, row)) continue;
     if (auto why = damage_of(schema::Reader(store.path()), row))
       damaged.push_back({row, *std::move(why)});

@@ -45,14 +45,15 @@ struct Picture {
 // The largest overlap, mismatch and momentum of all runs, and all counts together.
 std::optional<schema::Invariants> worst_invariants(const Reader& store) {
   auto rows = store.query(
-      "SELECT max(largest_overlap), sum(past_events), sum(watchdog_trips), max(energy_mismatch), "
+      "SELECT max(largest_overlap), sum(past_events), sum(unresolved_collisions), "
+      "max(energy_mismatch), "
       "max(momentum_removed) FROM invariants");
   const auto row = rows.next().value();
   const auto* overlap = std::get_if<double>(row.data());
   if (!overlap) return std::nullopt;
   return schema::Invariants{.largest_overlap = *overlap,
                             .past_events = std::get<std::int64_t>(row[1]),
-                            .watchdog_trips = std::get<std::int64_t>(row[2]),
+                            .unresolved_collisions = std::get<std::int64_t>(row[2]),
                             .energy_mismatch = std::get<double>(row[3]),
                             .momentum_removed = std::get<double>(row[4])};
 }
@@ -173,7 +174,7 @@ std::string invariants_text(const schema::Invariants& worst) {
   return fmt::format(
       "Physics: overlap at most {:.1e} sigma, {} events in the past, {} watchdog trips, energy "
       "balanced to {:.1e}, momentum to {:.1e}\n",
-      worst.largest_overlap, worst.past_events, worst.watchdog_trips, worst.energy_mismatch,
+      worst.largest_overlap, worst.past_events, worst.unresolved_collisions, worst.energy_mismatch,
       worst.momentum_removed);
 }
 
@@ -339,7 +340,7 @@ ordered_json failure_json(const schema::JobRow& row) {
 ordered_json invariants_json(const schema::Invariants& worst) {
   return {{"largest_overlap", worst.largest_overlap},
           {"past_events", worst.past_events},
-          {"watchdog_trips", worst.watchdog_trips},
+          {"unresolved_collisions", worst.unresolved_collisions},
           {"energy_mismatch", worst.energy_mismatch},
           {"momentum_removed", worst.momentum_removed}};
 }

@@ -37,6 +37,7 @@ Attempt::Attempt(schema::Store& store, const schema::Claim& claim, const Reporte
     : store_(store), claim_(claim), reporter_(reporter), cpu_at_start_(cpu_seconds()) {}
 
 std::optional<engine::State> Attempt::stored_state() const {
+  if (claim_.starts_over) return std::nullopt;
   return newest_state(store_, claim_.lease.job_id, job());
 }
 
@@ -165,7 +166,7 @@ schema::Commit Attempt::pending_commit(double tau) const {
           .fields = views_.fields,
           .invariants = schema::Invariants{.largest_overlap = engine::largest_overlap(seen),
                                            .past_events = seen.past_events,
-                                           .watchdog_trips = seen.unresolved_collisions,
+                                           .unresolved_collisions = seen.unresolved_collisions,
                                            .energy_mismatch = seen.energy_mismatch,
                                            .momentum_removed = seen.momentum_removed},
           .progress = progress(tau)};

@@ -37,12 +37,10 @@ constexpr const char* plain_gas = " d = 3 AND effects = '{}'";
 constexpr const char* shuffled_gas =
     " d = 3 AND (SELECT group_concat(key) FROM json_each(effects)) = 'shuffle'";
 
-// What tells series apart: the whole identity of a job but its seed. Of the columns from the fourth
-// on, those of gases that were prepared, changed or sampled in other ways.
-constexpr const char* key_columns =
-    "e, n, particles, sample_every, equilibrate, effects, observables, "
-    "coalesce(profiles_every, 0), coalesce(fields_at, '')";
-constexpr std::size_t keys = 9;
+// What tells means apart: the identity of a job but its seed and what it observes. Of the columns
+// from the fourth on, those of gases that were prepared, changed or sampled in other ways.
+constexpr const char* key_columns = "e, n, particles, sample_every, equilibrate, effects";
+constexpr std::size_t keys = 6;
 
 // What is averaged, in the order of read_means; of a Laguerre coefficient its order.
 struct Measured {
@@ -157,24 +155,43 @@ Realization read_realization(const schema::Reader& store, std::int64_t job_id, s
   return run;
 }
 
+// A realization that was run again to observe more is one, as in the views: its second run adds
+// what the first did not observe, and how much further it went.
+void add_what_is_new(Realization& run, Realization other) {
+  if (other.tau.size() > run.tau.size()) std::swap(run, other);
+  const auto fill = [](std::vector<double>& values, const std::vector<double>& from) {
+    for (std::size_t k = 0; k < from.size(); ++k)
+      if (std::isnan(values[k])) values[k] = from[k];
+  };
+  fill(run.temperature, other.temperature);
+  fill(run.a2, other.a2);
+  fill(run.largest_cluster, other.largest_cluster);
+  if (!run.tau_c) run.tau_c = other.tau_c;
+}
+
 // Adds the runs that each mean is of, and counts those that are missing.
 void read_runs(const schema::Reader& store, const char* gas,
                std::map<schema::Row, MeanSeries>& all) {
   schema::Query rows = store.query(
       fmt::format("SELECT {}, job_id, seed, status, coalesce(code_version, '') FROM jobs"
-                  " WHERE kind = 'cooling' AND {} ORDER BY seed",
+                  " WHERE kind = 'cooling' AND {} ORDER BY seed, status = 'done' DESC, job_id",
                   key_columns, gas));
   while (const auto row = rows.next()) {
     const auto& r = *row;
     const auto found = all.find(key_of(r));
     if (found == all.end()) continue;  // none of its realizations is done
     MeanSeries& series = found->second;
+    const auto seed = static_cast<std::uint64_t>(integer(r[keys + 1]));
+    const bool is_there = !series.runs.empty() && series.runs.back().seed == seed;
     if (std::get<std::string>(r[keys + 2]) != schema::name(schema::Status::done)) {
-      ++series.missing;
+      series.missing += is_there ? 0 : 1;
       continue;
     }
-    series.runs.push_back(read_realization(store, integer(r[keys]),
-                                           static_cast<std::uint64_t>(integer(r[keys + 1]))));
+    Realization run = read_realization(store, integer(r[keys]), seed);
+    if (is_there)
+      add_what_is_new(series.runs.back(), std::move(run));
+    else
+      series.runs.push_back(std::move(run));
     series.code_versions.insert(std::get<std::string>(r[keys + 3]));
   }
 }

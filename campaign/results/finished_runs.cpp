@@ -52,7 +52,7 @@ std::vector<FinishedSeries> read_those(const schema::Reader& store, Wanted&& wan
   std::vector<FinishedSeries> all;
   for (const schema::JobRow& row : jobs) {
     if (row.job.kind != schema::Kind::cooling || row.status != schema::Status::done) continue;
-    const std::string series = schema::series_identity(row.job);
+    const std::string& series = row.series;
     if (!wanted(series)) continue;
     if (all.empty() || schema::series_identity(all.back().job) != series)
       all.push_back({.job = row.job, .runs = {}});

@@ -7,7 +7,9 @@
 #include <set>
 #include <tuple>
 #include <variant>
+#include <vector>
 
+#include "analysis/statistics/statistics.hpp"
 #include "campaign/base/job_text.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/text_table.hpp"
@@ -17,61 +19,19 @@
 namespace haff::campaign {
 namespace {
 
-// Equal for realizations of one series, and ordered as tables are.
-using Key = std::tuple<int, double, std::int64_t, std::optional<double>, double, double,
-                       std::string, std::string, std::optional<double>, std::string>;
-
 std::string fields_at(const schema::Job& job) {
   return job.fields_at.empty() ? "" : schema::fields_at_text(job.fields_at);
 }
 
-Key key_of(const schema::Job& job) {
-  return {job.d,
-          job.n,
-          job.particles,
-          job.e,
-          job.equilibrate,
-          job.sample_every,
-          job.effects,
-          schema::observables_text(job.observables),
-          job.profiles_every,
-          fields_at(job)};
-}
-
-struct TauC {
-  int reached = 0;
-  std::optional<double> mean;
-  std::optional<double> error;
-};
-
-std::optional<double> real_or_null(const schema::Value& value) {
-  const double* number = std::get_if<double>(&value);
-  return number ? std::optional(*number) : std::nullopt;
-}
-
-std::map<Key, TauC> mean_tau_c(const schema::Reader& store) {
+// tau_c of the finished realizations that reached it, by series.
+std::map<std::string, std::vector<double>> reached_tau_c(const schema::Reader& store) {
   auto rows = store.query(
-      "SELECT d, n, particles, e, equilibrate, sample_every, effects, observables, "
-      "profiles_every, coalesce(fields_at, ''), reached, tau_c, tau_c_se FROM mean_tau_c");
-  std::map<Key, TauC> means;
-  while (const auto row = rows.next()) {
-    const auto integer = [&](std::size_t k) { return std::get<std::int64_t>((*row)[k]); };
-    const auto real = [&](std::size_t k) { return std::get<double>((*row)[k]); };
-    const auto text = [&](std::size_t k) { return std::get<std::string>((*row)[k]); };
-    const Key key{static_cast<int>(integer(0)),
-                  real(1),
-                  integer(2),
-                  real_or_null((*row)[3]),
-                  real(4),
-                  real(5),
-                  text(6),
-                  text(7),
-                  real_or_null((*row)[8]),
-                  text(9)};
-    means[key] = {static_cast<int>(integer(10)), real_or_null((*row)[11]),
-                  real_or_null((*row)[12])};
-  }
-  return means;
+      "SELECT series, tau_c FROM results JOIN jobs USING (job_id) "
+      "WHERE kind = 'cooling' AND status = 'done' AND tau_c IS NOT NULL ORDER BY series, seed");
+  std::map<std::string, std::vector<double>> reached;
+  while (const auto row = rows.next())
+    reached[std::get<std::string>(row->at(0))].push_back(std::get<double>(row->at(1)));
+  return reached;
 }
 
 std::string tau_c_text(const Series& series) {
@@ -121,33 +81,31 @@ class Rest {
 }  // namespace
 
 std::vector<Series> series_of(const schema::Reader& store) {
-  std::map<Key, Series> all;
+  std::vector<Series> all;                   // in the order of tables
+  std::map<std::string, std::size_t> place;  // in it, by series
   for (const schema::JobRow& row : store.jobs()) {
     if (row.job.kind != schema::Kind::cooling) continue;
     const bool is_done = row.status == schema::Status::done;
     const double tau = is_done ? row.tau_max : row.progress.tau;
-    Series& series = all[key_of(row.job)];
-    if (series.planned == 0) {
-      series.job = row.job;
-      series.tau = tau;
-      series.published_tau_c = published_tau_c(row.job);
-    }
+    const auto [found, is_new] = place.emplace(row.series, all.size());
+    if (is_new)
+      all.push_back({.job = row.job, .tau = tau, .published_tau_c = published_tau_c(row.job)});
+    Series& series = all[found->second];
     ++series.planned;
     series.done += is_done;
     series.tau = std::min(series.tau, tau);
     series.tau_max = std::max(series.tau_max, row.tau_max);
   }
-  for (const auto& [key, mean] : mean_tau_c(store)) {
-    const auto found = all.find(key);
-    if (found == all.end()) continue;  // planned and done between the two questions
-    found->second.reached = mean.reached;
-    found->second.tau_c = mean.mean;
-    found->second.tau_c_se = mean.error;
+  for (const auto& [series, reached] : reached_tau_c(store)) {
+    const auto found = place.find(series);
+    if (found == place.end()) continue;  // planned and done between the two questions
+    const auto estimate = analysis::estimate(reached);
+    Series& each = all[found->second];
+    each.reached = static_cast<int>(reached.size());
+    each.tau_c = estimate.mean;
+    if (reached.size() > 1) each.tau_c_se = estimate.standard_error;
   }
-  std::vector<Series> list;
-  list.reserve(all.size());
-  for (auto& [key, series] : all) list.push_back(std::move(series));
-  return list;
+  return all;
 }
 
 std::string series_table(const std::vector<Series>& list) {

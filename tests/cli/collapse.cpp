@@ -33,7 +33,7 @@ TEST_CASE("collapse: ends a job with its series, named, and fails nothing") {
                "WHERE status = 'collapsed'") == 1);
   CHECK(number(folder, "SELECT count(*) FROM results") == 0);
   CHECK(number(folder,
-               "SELECT watchdog_trips FROM invariants JOIN jobs USING (job_id) "
+               "SELECT unresolved_collisions FROM invariants JOIN jobs USING (job_id) "
                "WHERE status = 'collapsed'") == 3);
   const Outcome status = campaign(folder, {"status"});
   CHECK(status.out.find("collapsed: inelastic collapse of particles") != std::string::npos);

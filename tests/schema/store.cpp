@@ -227,8 +227,42 @@ TEST_CASE("a job is computed again from its start unless a worker holds it") {
   complete(store, *claim);
   REQUIRE(store.checkpoint(id));
   CHECK(store.restart(id));
-  CHECK_FALSE(store.checkpoint(id));
-  CHECK(store.claim(me, "test")->lease.job_id == id);
+  // The old state stays, unused, until a new one takes its place.
+  REQUIRE(store.checkpoint(id));
+  CHECK(store.job(id).starts_over);
+  const auto again = store.claim(me, "test");
+  REQUIRE(again);
+  CHECK(again->lease.job_id == id);
+  CHECK(again->starts_over);
+  store.release(again->lease);
+  CHECK(store.job(id).starts_over);
+  CHECK(store.job(id).progress.tau == 0);
+  complete(store, *store.claim(me, "test"));
+  CHECK(store.checkpoint(id));
+  CHECK_FALSE(store.job(id).starts_over);
+}
+
+TEST_CASE("a job that ends from its start without a new state leaves no damaged one behind") {
+  Store store = Store::create(":memory:");
+  store.add(plan({cooling(0.8)}));
+  equilibrate(store);
+  const Claim claim = *store.claim(me, "test");
+  complete(store, claim, {}, Results{});
+  CHECK(store.restart(claim.lease.job_id));
+  const Claim again = *store.claim(me, "test");
+  store.finish(again.lease, {.progress = {.tau = again.tau_max}}, Results{}, again.tau_max);
+  CHECK_FALSE(store.checkpoint(claim.lease.job_id));
+  CHECK_FALSE(store.job(claim.lease.job_id).starts_over);
+}
+
+TEST_CASE("the series of a job is its identity with the seed 0, in SQL as in code") {
+  Store store = Store::create(":memory:");
+  Job disks = cooling(0.85, 7);
+  disks.d = 2;
+  disks.effects = R"({"shuffle":{"every":0.1}})";
+  disks.profiles_every = 1e-3;
+  store.add(plan({cooling(0.1, 12345678901), disks}));
+  for (const JobRow& row : store.jobs()) CHECK(row.series == series_identity(row.job));
 }
 
 TEST_CASE("what takes longest is claimed first") {
