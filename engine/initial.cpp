@@ -55,10 +55,14 @@ void mix(std::vector<Particle>& particles, std::uint64_t seed) {
 }
 
 Box box_of(double n, std::uint32_t count, int d) {
-  return Box(d == 2 ? std::sqrt(count / n) : cube_root(count / n), d);
+  return Box(box_side(n, count, d), d);
 }
 
 }  // namespace
+
+double box_side(double n, std::uint32_t particles, int d) {
+  return d == 2 ? std::sqrt(particles / n) : cube_root(particles / n);
+}
 
 bool begins_on_lattice(double n, std::uint32_t particles, int d) {
   return lattice_fits(particles, box_of(n, particles, d));

@@ -18,6 +18,10 @@ namespace haff::engine {
 State initial_state(double n, std::uint32_t particles, std::uint64_t seed, int d = 3,
                     const std::map<std::string, Parameters>& effects = {});
 
+// The side of its periodic box, (particles/n)^(1/d), computed with IEEE operations alone: the C
+// library's cube root differs in its last bit between machines. [sigma]
+double box_side(double n, std::uint32_t particles, int d);
+
 // Whether such a state begins on a lattice. Growth, the other way, takes much longer and can jam:
 // the volume fraction up to which it succeeds is some 0.64 for spheres and 0.84 for disks.
 bool begins_on_lattice(double n, std::uint32_t particles, int d);

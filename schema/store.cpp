@@ -533,7 +533,7 @@ bool Store::restart(std::int64_t job_id) {
     if (change(R"(
           UPDATE jobs SET status = 'pending', attempts = 0, error = NULL, tau = 0, collisions = 0,
                           finished = NULL, starts_over = 1
-          WHERE job_id = ? AND status <> 'running')") == 0)
+          WHERE job_id = ? AND status NOT IN ('running', 'lent'))") == 0)
       return false;
     change("DELETE FROM invariants WHERE job_id = ?");
     return true;

@@ -371,8 +371,8 @@ class Store : public Reader {
 
   // For a job whose checkpoint is damaged: makes the job pending with all attempts, to begin at its
   // start. The old checkpoint stays, unused, until a new one takes its place; samples and results
-  // stay and are compared when they come out again. False, and nothing done, if a worker holds the
-  // job.
+  // stay and are compared when they come out again. False, and nothing done, if a worker or a
+  // shard holds the job.
   bool restart(std::int64_t job_id);
 
   // Lend pending jobs to new shards: one transaction. Throws StoreError if a job is no longer

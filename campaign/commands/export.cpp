@@ -30,13 +30,26 @@ std::string cell(const engine::State& state) {
   return fmt::format(R"(Lattice="{0} 0 0 0 {0} 0 0 0 {0}" Origin="0 0 0" pbc="T T T")", state.box);
 }
 
+// Angular velocities of rough particles, three numbers each by id, scaled like the velocities.
+const std::vector<double>* spins_of(const engine::State& state) {
+  const auto found = state.memory.find("spin");
+  return found == state.memory.end() ? nullptr : &found->second;
+}
+
+std::string quoted(const std::string& json) {
+  std::string text;
+  for (const char c : json) text += c == '"' ? std::string("\\\"") : std::string(1, c);
+  return text;
+}
+
 std::string head(const engine::State& state, const schema::JobRow& row) {
   const double tau = 2 * static_cast<double>(state.collisions) / state.particles();
   return fmt::format(
-      "{}\n{} Properties=id:I:1:pos:R:3:velo:R:3:radius:R:1 "
-      "job_id={}{} n={} seed={} tau={} Time={}\n",
-      state.particles(), cell(state), row.job_id, row.job.e ? fmt::format(" e={}", *row.job.e) : "",
-      row.job.n, row.job.seed, tau, state.time);
+      "{}\n{} Properties=id:I:1:pos:R:3:velo:R:3:radius:R:1:species:I:1:mass:R:1{} "
+      "job_id={}{} n={} seed={} tau={} Time={} effects=\"{}\"\n",
+      state.particles(), cell(state), spins_of(state) ? ":angular_velocity:R:3" : "", row.job_id,
+      row.job.e ? fmt::format(" e={}", *row.job.e) : "", row.job.n, row.job.seed, tau, state.time,
+      quoted(row.job.effects));
 }
 
 std::vector<std::size_t> places_by_id(const engine::State& state) {
@@ -55,13 +68,20 @@ void write(const engine::State& state, std::ostream& out) {
     text.clear();
   };
   const auto mixture = mixture_in(state);
+  const auto* spins = spins_of(state);
   for (const std::size_t place : places_by_id(state)) {
     const auto& r = state.position[place];
     const auto& v = state.velocity[place];
-    fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {}\n", state.id[place], r[0],
-                   r[1], r[2], std::ldexp(v[0], -state.exponent), std::ldexp(v[1], -state.exponent),
-                   std::ldexp(v[2], -state.exponent),
-                   mixture ? radius * mixture->diameter_of(state.id[place]) : radius);
+    const std::uint32_t id = state.id[place];
+    const auto scaled = [&](double value) { return std::ldexp(value, -state.exponent); };
+    fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {} {} {}", id, r[0], r[1], r[2],
+                   scaled(v[0]), scaled(v[1]), scaled(v[2]),
+                   mixture ? radius * mixture->diameter_of(id) : radius,
+                   mixture && mixture->is_second(id) ? 2 : 1, mixture ? mixture->mass_of(id) : 1.0);
+    if (spins != nullptr)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        fmt::format_to(std::back_inserter(text), " {}", scaled(spins->at(3 * id + axis)));
+    text.push_back('\n');
     if (text.size() > chunk) flush();
   }
   flush();

@@ -42,7 +42,10 @@ struct Damaged {
 std::vector<Damaged> damaged_jobs(const schema::Reader& store) {
   std::vector<Damaged> damaged;
   for (const schema::JobRow& row : store.jobs()) {
-    if (row.status == schema::Status::running || row.starts_over) continue;
+    // The first two are somebody else's at the moment, the last is about to be mended.
+    if (row.status == schema::Status::running || row.status == schema::Status::lent ||
+        row.starts_over)
+      continue;
     if (!damage_of(store, row)) continue;
     if (auto why = damage_of(schema::Reader(store.path()), row))
       damaged.push_back({row, *std::move(why)});

@@ -15,6 +15,7 @@
 #include "analysis/theory/correlations.hpp"
 #include "campaign/job/timetable.hpp"
 #include "campaign/state/model.hpp"
+#include "engine/initial.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -94,7 +95,7 @@ struct Snapshot {
       : position(gas.positions()),
         velocity(gas.velocities()),
         exponent(gas.exponent()),
-        box(job.d == 3 ? std::cbrt(job.particles / job.n) : std::sqrt(job.particles / job.n)) {}
+        box(engine::box_side(job.n, job.particles, job.d)) {}
 
   std::vector<double> unscaled(std::vector<double> values, int power) const {
     for (double& value : values) value = std::ldexp(value, -power * exponent);

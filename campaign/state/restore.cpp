@@ -2,19 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "campaign/base/job_text.hpp"
 #include "campaign/state/energy.hpp"
 #include "campaign/state/model.hpp"
+#include "engine/initial.hpp"
 #include "engine/simulation.hpp"
 #include "engine/soundness.hpp"
 
 namespace haff::campaign {
 namespace {
-
-// L = (N/n)^(1/d) comes from a C library's cube root, which may differ in its last bit. [relative]
-constexpr double box_rounding = 1e-14;
 
 std::optional<std::string> contradiction(const engine::State& state,
                                          const schema::Checkpoint& checkpoint,
@@ -22,10 +18,8 @@ std::optional<std::string> contradiction(const engine::State& state,
   if (state.particles() != job.particles)
     return fmt::format("it holds {} particles, the job has {}", state.particles(), job.particles);
   if (state.d != job.d) return fmt::format("it is of dimension {}, the job of {}", state.d, job.d);
-  const double volume = job.particles / job.n;
-  const double box = job.d == 2 ? std::sqrt(volume) : std::cbrt(volume);
-  if (!(std::abs(state.box - box) <= box_rounding * box))
-    return fmt::format("its box has side {}, the job's {}", state.box, box);
+  const double box = engine::box_side(job.n, job.particles, job.d);
+  if (state.box != box) return fmt::format("its box has side {}, the job's {}", state.box, box);
   if (state.collisions != checkpoint.collisions ||
       state.collisions != engine::collisions_at(checkpoint.tau, job.particles))
     return fmt::format("it holds the state after {} collisions, which is not tau = {}",
