@@ -32,9 +32,11 @@ std::vector<std::uint64_t> seeds_in(const std::string& text);
 inline constexpr const char* seconds_to_next_tau =
     "(coalesce(jobs.expected_cpu_seconds, 0) * min(:tau, jobs.tau_max - jobs.tau) / jobs.tau_max)";
 
-// SQL: the jobs that can be claimed, as `jobs`.
+// SQL: the jobs that can be claimed, as `jobs`, in the order of the index: a claim takes the first
+// and reads no further. SQLite would rather collect all that are pending, and sort them.
 inline constexpr const char* from_claimable_jobs =
-    "FROM jobs LEFT JOIN jobs AS equilibration ON equilibration.job_id = jobs.equilibration_id "
+    "FROM jobs INDEXED BY jobs_to_claim "
+    "LEFT JOIN jobs AS equilibration ON equilibration.job_id = jobs.equilibration_id "
     "WHERE jobs.status = 'pending' "
     "AND (jobs.kind = 'equilibration' OR equilibration.status = 'done') ";
 

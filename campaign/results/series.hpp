@@ -15,10 +15,10 @@ struct Series {
   int done = 0;
   double tau = 0;  // reached by the realization furthest behind
   double tau_max = 0;
-  int reached = 0;              // done realizations that reached tau_c
-  std::optional<double> tau_c;  // mean over those, from the view mean_tau_c
-  std::optional<double> tau_c_se;
-  std::optional<double> published_tau_c;
+  int reached = 0;                   // done realizations that reached tau_c
+  std::optional<double> tau_c = {};  // mean over those
+  std::optional<double> tau_c_se = {};
+  std::optional<double> published_tau_c = {};
 };
 
 std::vector<Series> series_of(const schema::Reader& store);
