@@ -7,6 +7,7 @@
 #include "engine/collision/pair_geometry.hpp"
 #include "engine/loop/engine_variant.hpp"
 #include "engine/loop/watchdog.hpp"
+#include "engine/parallel/slabs.hpp"
 #include "engine/particles/synchronize.hpp"
 #include "engine/soundness.hpp"
 
@@ -23,9 +24,10 @@ bool is_effect(std::string_view name) {
 
 class Simulation::Implementation {
  public:
-  Implementation(const Model& model, const State& state, SearchBackend backend)
+  Implementation(const Model& model, const State& state, SearchBackend backend,
+                 const Threads& threads)
       : gas(sound(state)),
-        variant(choose(model, gas, state, backend)),
+        variant(choose(model, gas, state, backend, threads)),
         actions(actions_of(model, state)) {
     for (const auto& [name, parameters] : model.effects)
       if (!is_effect(name)) throw std::invalid_argument("there is no effect " + name);
@@ -59,12 +61,17 @@ class Simulation::Implementation {
   }
 
   static std::unique_ptr<EngineVariant> choose(const Model& model, const Gas& gas,
-                                               const State& state, SearchBackend backend) {
+                                               const State& state, SearchBackend backend,
+                                               const Threads& threads) {
+    if (mixture_in(state) && !model.effects.contains("mixture"))
+      throw std::invalid_argument("the state is of a mixture, and the model asks for none");
+    if (std::max(threads.count, threads.slabs) > 1 && backend == SearchBackend::simd &&
+        gas.tells_images_apart() &&
+        Slabs::most(gas.bricks, std::max(threads.count, threads.slabs)) > 1)
+      return parallel_variant(model, state, threads);
     for (const OtherPhysics& other : other_physics)
       if (model.effects.contains(std::string(other.effect)))
         return other.make(model, gas, state, backend);
-    if (mixture_in(state))
-      throw std::invalid_argument("the state is of a mixture, and the model asks for none");
     if (backend == SearchBackend::scalar || !gas.tells_images_apart())
       return plain_variant(model, gas, state);
     if (gas.box.d == 2) return disks_variant(model, state);
@@ -101,8 +108,9 @@ std::int64_t collisions_at(double tau, std::uint32_t particles) {
   return static_cast<std::int64_t>(std::ceil(tau * particles / 2));
 }
 
-Simulation::Simulation(const Model& model, const State& start, SearchBackend backend)
-    : self_(std::make_unique<Implementation>(model, start, backend)) {}
+Simulation::Simulation(const Model& model, const State& start, SearchBackend backend,
+                       const Threads& threads)
+    : self_(std::make_unique<Implementation>(model, start, backend, threads)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
@@ -169,6 +177,10 @@ State Simulation::state() const {
   self_->variant->store(state);
   for (const auto& action : self_->actions) action->store(state);
   return state;
+}
+
+std::optional<Windows> Simulation::windows() const {
+  return self_->variant->windows();
 }
 
 Events Simulation::events() const {

@@ -42,6 +42,29 @@ struct Model {
 // Which implementation searches for contacts. All give the same bits.
 enum class SearchBackend { simd, scalar };
 
+// On how many threads a simulation runs. Every number gives the same bits.
+struct Threads {
+  unsigned count = 1;
+  // Into how many slabs the box is divided, at least one for each thread; 0: as many as threads.
+  unsigned slabs = 0;
+  // The length of a window [collisions per particle], within which the threads do not wait for each
+  // other; 0: adapted to the gas. For tests.
+  double window = 0;
+};
+
+// What several threads have done.
+struct Windows {
+  std::int64_t count = 0;
+  std::int64_t repaired = 0;      // undone, and worked off in one piece
+  std::int64_t in_one_piece = 0;  // collisions
+  // Events of windows that were not repaired, by the phase in which they were processed.
+  std::int64_t in_slabs = 0;
+  std::int64_t in_zones = 0;
+  std::int64_t in_box = 0;
+  // The events of the busiest thread in every phase of a window, summed.
+  std::int64_t longest = 0;
+};
+
 // The number of events by kind. They determine the cost; collisions alone determine the trajectory.
 struct Events {
   std::int64_t collisions = 0;
@@ -80,7 +103,8 @@ class Simulation {
  public:
   // Throws std::invalid_argument if the state is not one of hard spheres (soundness.hpp), if there
   // is no such restitution model or effect, or if one of its parameters is missing.
-  Simulation(const Model& model, const State& start, SearchBackend backend = SearchBackend::simd);
+  Simulation(const Model& model, const State& start, SearchBackend backend = SearchBackend::simd,
+             const Threads& threads = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -112,8 +136,9 @@ class Simulation {
   // The state; throws std::logic_error if the gas is not synchronized.
   State state() const;
 
-  Events events() const;       // since the simulation was made
-  std::size_t memory() const;  // bytes held
+  Events events() const;                   // since the simulation was made
+  std::optional<Windows> windows() const;  // nothing if it runs on one thread
+  std::size_t memory() const;              // bytes held
 
  private:
   class Implementation;

@@ -53,8 +53,9 @@ class RoughCollision : public SmoothCollision<AnyRestitutionModel, PairGeometry>
     eta_ = q_ * (1 + beta_) / (2 * (1 + q_));
   }
 
+  template <class AnyClock>
   [[gnu::always_inline]] double collide(Particle& a, Particle& b, double now, const Box& box,
-                                        Clock& clock) {
+                                        AnyClock& clock) {
     const auto [r, v, approach, distance2] = this->resolve(a, b, now, box, clock);
     Vector& a_spin = spin_[a.id];
     Vector& b_spin = spin_[b.id];
@@ -113,6 +114,19 @@ class RoughCollision : public SmoothCollision<AnyRestitutionModel, PairGeometry>
     }
     exponent_ = exponent;
     energy_before_ = energy();
+  }
+
+  // What a collision changes beside the records, to undo it.
+  struct Memento {
+    std::uint32_t a, b;  // ids
+    Vector spin_of_a, spin_of_b;
+  };
+  Memento memento(const Particle& a, const Particle& b) const {
+    return {a.id, b.id, spin_[a.id], spin_[b.id]};
+  }
+  void restore(const Memento& before) {
+    spin_[before.a] = before.spin_of_a;
+    spin_[before.b] = before.spin_of_b;
   }
 
   std::optional<Rotation> rotation() const { return Rotation{energy_before_, energy()}; }

@@ -44,8 +44,9 @@ class SmoothCollision : public PairGeometry {
   // Lets a and b collide at the time `now`. Adds the lost energy and the virial to the clock's
   // tally, in the units of the scaled velocities. Returns r.v before the collision, which is
   // negative.
+  template <class AnyClock>
   [[gnu::always_inline]] double collide(Particle& a, Particle& b, double now, const Box& box,
-                                        Clock& clock) const {
+                                        AnyClock& clock) const {
     return resolve(a, b, now, box, clock).approach;
   }
 
@@ -63,6 +64,11 @@ class SmoothCollision : public PairGeometry {
   }
   void scale(int exponent) { restitution_.scale(exponent); }
 
+  // What a collision changes beside the records: nothing.
+  struct Memento {};
+  static Memento memento(const Particle&, const Particle&) { return {}; }
+  static void restore(const Memento&) {}
+
   // Smooth particles have no rotation and no data beside their records.
   static std::optional<Rotation> rotation() { return std::nullopt; }
   static std::size_t memory() { return 0; }  // bytes
@@ -75,8 +81,9 @@ class SmoothCollision : public PairGeometry {
     double distance2;
   };
 
+  template <class AnyClock>
   [[gnu::always_inline]] Meeting resolve(Particle& a, Particle& b, double now, const Box& box,
-                                         Clock& clock) const {
+                                         AnyClock& clock) const {
     RecordHalves of_a(a, now), of_b(b, now);
     Four r = of_b.position - of_a.position;
     to_nearest_image(r, box);

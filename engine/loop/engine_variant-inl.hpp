@@ -38,7 +38,7 @@ class VariantOf : public EngineVariant {
   std::optional<Rotation> rotation() const override { return physics_.rotation(); }
   std::size_t memory() const override { return physics_.memory(); }
 
- private:
+ protected:
   Physics physics_;
 };
 

@@ -25,6 +25,8 @@ class EngineVariant {
   virtual void store(State& state) const = 0;
   virtual void scale(int exponent) = 0;
   virtual std::optional<Rotation> rotation() const = 0;
+  // Of a variant that runs on several threads.
+  virtual std::optional<Windows> windows() const { return std::nullopt; }
   virtual std::size_t memory() const = 0;  // bytes, in addition to the gas
 };
 
@@ -36,6 +38,10 @@ std::unique_ptr<EngineVariant> plain_variant(const Model& model, const Gas& gas,
 // Smooth equal spheres, with SIMD. Throws likewise.
 std::unique_ptr<EngineVariant> spheres_variant(const Model& model, const Gas& gas,
                                                const State& start);
+
+// Any physics, on several threads. Throws likewise.
+std::unique_ptr<EngineVariant> parallel_variant(const Model& model, const State& start,
+                                                const Threads& threads);
 
 // Disks, with SIMD. Throws likewise.
 std::unique_ptr<EngineVariant> disks_variant(const Model& model, const State& start);

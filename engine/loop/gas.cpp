@@ -3,8 +3,6 @@
 #include <cmath>
 
 namespace haff::engine {
-namespace {
-
 // The approximate number of events per unit of time, which sizes the queue: Boltzmann's collision
 // frequency plus the crossings of cells about one diameter wide. Only the speed depends on it.
 double events_per_time(const Gas& gas) {
@@ -12,8 +10,6 @@ double events_per_time(const Gas& gas) {
   const double speed = std::sqrt(2 * kinetic_energy(gas.particles));
   return std::max(count * speed * (1 + 4 * count / gas.box.volume()), 1e-300);
 }
-
-}  // namespace
 
 void prepare(Gas& gas) {
   gas.bricks.clear();

@@ -42,6 +42,10 @@ struct Gas {
 inline constexpr std::size_t worth_prefetching = 20000;
 inline constexpr std::uint32_t foresight = 12;
 
+// The approximate number of events per unit of time, which sizes the queue. Only the speed depends
+// on it.
+double events_per_time(const Gas& gas);
+
 // Fills the cells and empties the queue, for a gas that has just been synchronized.
 void prepare(Gas& gas);
 

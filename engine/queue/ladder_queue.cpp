@@ -132,7 +132,7 @@ bool LadderQueue::open_next_slot() {
     empty(list, [&](std::uint32_t particle) {
       if (count == found_.size()) [[unlikely]]
         found_.resize(2 * count + 16);
-      const double time = events_[particle].time;
+      const double time = time_of(particle);
       found_[count] = {time, particle};
       count += slot_of(time) == slot_;
     });
@@ -164,7 +164,7 @@ bool LadderQueue::open_next_window() {
       opened_.push_back(particle);
     });
     for (const std::uint32_t particle : opened_) {
-      const Slot slot = slot_of(events_[particle].time);
+      const Slot slot = slot_of(time_of(particle));
       append(lists_[choose(window_of(slot) == window, in_window(slot), slots())], particle);
     }
     empty(lists_[slots()], [](std::uint32_t) {});
@@ -177,15 +177,14 @@ void LadderQueue::extend() {
   std::vector<std::uint32_t> waiting;
   waiting.swap(beyond_);
   double earliest = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t particle : waiting)
-    earliest = std::min(earliest, events_[particle].time);
+  for (const std::uint32_t particle : waiting) earliest = std::min(earliest, time_of(particle));
   // An outdated entry's particle has an entry elsewhere too; its time may be long past.
   if (const Slot slot = slot_of(earliest); slot > slot_ && slot != no_slot)
     slot_ = slot - in_window(slot);
   first_window_ = window_of(slot_);
   std::fill(lists_.begin() + static_cast<std::ptrdiff_t>(slots()) + 1, lists_.end(), List{});
   for (const std::uint32_t particle : waiting) {
-    const Slot slot = slot_of(events_[particle].time);
+    const Slot slot = slot_of(time_of(particle));
     if (slot < slot_ || slot == no_slot) continue;  // outdated, or never
     if (const std::size_t list = list_of(window_of(slot)); list < lists_.size())
       append(lists_[list], particle);
@@ -195,7 +194,7 @@ void LadderQueue::extend() {
 }
 
 std::size_t LadderQueue::memory() const {
-  return events_.capacity() * sizeof(Event) + chunks_.capacity() * sizeof(Chunk) +
+  return storage_.capacity() * sizeof(Event) + chunks_.capacity() * sizeof(Chunk) +
          lists_.capacity() * sizeof(List) + (due_.capacity() + found_.capacity()) * sizeof(Entry) +
          (beyond_.capacity() + opened_.capacity()) * sizeof(std::uint32_t);
 }

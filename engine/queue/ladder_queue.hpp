@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -26,8 +27,15 @@ class LadderQueue {
  public:
   static constexpr std::uint32_t nothing = 0xffffffff;
 
-  explicit LadderQueue(std::uint32_t particles)
-      : events_(particles), window_bits_(particles < small ? bits_if_small : bits_if_large) {}
+  explicit LadderQueue(std::uint32_t particles) : LadderQueue(nullptr, particles) {
+    storage_.resize(particles);
+    events_ = storage_.data();
+  }
+  // A queue for about `particles` of the particles whose events are stored elsewhere.
+  LadderQueue(Event* events, std::uint32_t particles)
+      : events_(events),
+        particles_(particles),
+        window_bits_(particles < small ? bits_if_small : bits_if_large) {}
 
   Event& operator[](std::uint32_t particle) { return events_[particle]; }
   const Event& operator[](std::uint32_t particle) const { return events_[particle]; }
@@ -53,6 +61,9 @@ class LadderQueue {
         int{entry.particle == particle} &
         int{entry.time < std::numeric_limits<double>::infinity()});  // not the end itself
   }
+
+  // Puts the particle that next() has just returned back.
+  void put_back() { --head_; }
 
   // The particle whose event comes so many places later, as far as is known now; any particle at
   // the end of the queue.
@@ -99,7 +110,7 @@ class LadderQueue {
   // The number of windows that are created together: enough for some two collisions per particle,
   // so that nearly every event finds its window immediately.
   std::size_t windows_ahead() const {
-    return 64 + 4 * events_.size() / (static_cast<std::size_t>(events_per_slot) * slots());
+    return 64 + 4 * std::size_t{particles_} / (static_cast<std::size_t>(events_per_slot) * slots());
   }
   // The number of slots in a window, a power of two.
   Slot slots() const { return Slot{1} << window_bits_; }
@@ -107,7 +118,11 @@ class LadderQueue {
   Slot in_window(Slot slot) const { return slot & (slots() - 1); }
   // The list of a window. The events of the present window are in the lists of its slots.
   std::size_t list_of(Slot window) const { return slots() + 1 + (window - first_window_); }
-  bool outdated(const Entry& entry) const { return events_[entry.particle].time != entry.time; }
+  // An entry may be of a particle that now belongs to another thread's queue.
+  double time_of(std::uint32_t particle) const {
+    return std::atomic_ref(events_[particle].time).load(std::memory_order_relaxed);
+  }
+  bool outdated(const Entry& entry) const { return time_of(entry.particle) != entry.time; }
   bool only_twins() const;
   void append(List& list, std::uint32_t particle);
   void open_chunk(List& list);
@@ -123,7 +138,9 @@ class LadderQueue {
   template <class Rank>
   std::uint32_t settle_tie(Rank&& rank);
 
-  HugeVector<Event> events_;
+  HugeVector<Event> storage_;  // empty if the events are stored elsewhere
+  Event* events_;              // by particle
+  std::uint32_t particles_;    // about so many of them are in this queue
 
   unsigned window_bits_;
   double slots_per_time_ = 0;

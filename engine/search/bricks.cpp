@@ -27,13 +27,17 @@ Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inver
   for (std::uint32_t n = 0; n < 8; ++n) care_around_[n].fill(care_around(n));
   for (std::uint32_t axis = 0; axis < 3; ++axis)
     for (std::uint32_t k = 0; k < 4; ++k) care_beyond_[axis][k].fill(care_beyond(axis, k));
+  last_axis_ = box.d == 2 ? 1 : 2;
+  layers_ = bricks;
+  in_layer_ = (box.d == 2 ? bricks : bricks * bricks) * slots;
+  overflow_.resize(layers_);
   lines_.resize(std::size_t{bricks} * bricks * layers);
   clear();
 }
 
 void Bricks::clear() {
   std::fill(lines_.begin(), lines_.end(), Line{});
-  overflow_.clear();
+  for (auto& layer : overflow_) layer.clear();
 }
 
 Cell Bricks::locate(const Vector& position) const {
@@ -51,7 +55,7 @@ void Bricks::insert(std::uint32_t particle, Cell cell) {
   if (slot.back() == 0)
     slot[taken(slot)] = entry(particle, cell);
   else
-    overflow_[brick].push_back(entry(particle, cell));
+    overflow_[brick / in_layer_][brick].push_back(entry(particle, cell));
 }
 
 void Bricks::remove(std::uint32_t particle, Cell cell) {
@@ -59,11 +63,12 @@ void Bricks::remove(std::uint32_t particle, Cell cell) {
   const std::uint32_t gone = entry(particle, cell);
   auto& slot = lines_[brick / slots].slot;
   auto hole = std::find(slot.begin(), slot.end(), gone);
-  if (const auto extra = overflow_.find(brick); extra != overflow_.end()) {
+  auto& layer = overflow_[brick / in_layer_];
+  if (const auto extra = layer.find(brick); extra != layer.end()) {
     auto& more = extra->second;
     (hole != slot.end() ? *hole : *std::find(more.begin(), more.end(), gone)) = more.back();
     more.pop_back();
-    if (more.empty()) overflow_.erase(extra);
+    if (more.empty()) layer.erase(extra);
     return;
   }
   const std::size_t last = taken(slot) - 1;
@@ -73,8 +78,9 @@ void Bricks::remove(std::uint32_t particle, Cell cell) {
 
 const std::vector<std::uint32_t>& Bricks::overflow(std::uint32_t brick) const {
   static const std::vector<std::uint32_t> none;
-  const auto found = overflow_.find(brick);
-  return found == overflow_.end() ? none : found->second;
+  const auto& layer = overflow_[brick / in_layer_];
+  const auto found = layer.find(brick);
+  return found == layer.end() ? none : found->second;
 }
 
 }  // namespace haff::engine

@@ -93,6 +93,18 @@ class Bricks {
   // Moves the particle through that face; returns its new cell.
   Cell cross(std::uint32_t particle, Cell cell, Face face);
 
+  // Moves the particle from one cell to another.
+  void move(std::uint32_t particle, Cell from, Cell to) {
+    remove(particle, from);
+    insert(particle, to);
+  }
+
+  // Bricks form layers along the last axis.
+  std::uint32_t layers() const { return layers_; }
+  std::uint32_t layer_of(Cell cell) const { return cell[last_axis_] / 2; }
+  unsigned last_axis() const { return last_axis_; }
+  std::size_t count() const { return lines_.size(); }
+
   // The eight bricks around a cell (four for disks), and the four (two) bricks with the nine
   // (three) cells beyond one of its faces.
   template <int d = 3>
@@ -187,7 +199,11 @@ class Bricks {
   alignas(32) std::array<Care, 8> care_around_;
   alignas(32) std::array<std::array<Care, 4>, 3> care_beyond_;  // by axis
   HugeVector<Line> lines_;
-  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> overflow_;
+  unsigned last_axis_;
+  std::uint32_t layers_;
+  std::uint32_t in_layer_;  // numbers of bricks in a layer
+  // By layer, so that several threads, each in layers of its own, can use them at the same time.
+  std::vector<std::unordered_map<std::uint32_t, std::vector<std::uint32_t>>> overflow_;
 };
 
 [[gnu::always_inline]] inline Cell Bricks::cross(std::uint32_t particle, Cell cell, Face face) {

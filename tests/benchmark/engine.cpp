@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
   double tau = 20;
   std::string effects = "{}";
   bool scalar = false;
+  engine::Threads threads;
   bool json = false;
   CLI::App app("Collisions per second of the event-driven engine");
   app.add_option("--N", particles, "particles")->capture_default_str();
@@ -75,6 +76,13 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--tau", tau, "collisions per particle measured")->capture_default_str();
   app.add_flag("--scalar", scalar, "predict contacts one by one, without SIMD");
+  app.add_option("--threads", threads.count, "threads that work on the one gas")
+      ->capture_default_str();
+  app.add_option("--slabs", threads.slabs, "slabs of the box; 0: as many as threads")
+      ->capture_default_str();
+  app.add_option("--window", threads.window,
+                 "length of a window of several threads, in collisions per particle; 0: adapted")
+      ->capture_default_str();
   app.add_flag("--json", json, "print one JSON object");
   app.add_option("--effects", effects, "as in a grid, JSON")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
@@ -88,11 +96,11 @@ int main(int argc, char** argv) {
     engine::Model elastic{.restitution = 1};
     if (const auto mixture = asked.effects.find("mixture"); mixture != asked.effects.end())
       elastic.effects.insert(*mixture);
-    engine::Simulation melting(elastic, start, backend);
+    engine::Simulation melting(elastic, start, backend, threads);
     melting.run_to(engine::collisions_at(period * std::ceil(warmup / period), particles));
     start = engine::restarted(melting.state());
   }
-  engine::Simulation gas(asked, start, backend);
+  engine::Simulation gas(asked, start, backend, threads);
   start = {};
   const auto begin = std::chrono::steady_clock::now();
   gas.run_to(engine::collisions_at(tau, particles));
@@ -100,7 +108,7 @@ int main(int argc, char** argv) {
 
   const engine::Events events = gas.events();
   const auto collisions = static_cast<double>(events.collisions);
-  const nlohmann::ordered_json result{
+  nlohmann::ordered_json result{
       {"d", d},
       {"N", particles},
       {"n", n},
@@ -114,6 +122,17 @@ int main(int argc, char** argv) {
       {"stale_per_collision", static_cast<double>(events.stale) / collisions},
       {"bytes_per_particle", static_cast<double>(gas.memory() + remembered(gas)) / particles},
       {"state_hash", state_hash(gas)}};
+  if (const auto windows = gas.windows()) {
+    const auto count = static_cast<double>(windows->count);
+    const auto all = static_cast<double>(windows->in_slabs + windows->in_zones + windows->in_box);
+    result["windows"] = windows->count;
+    result["repaired"] = static_cast<double>(windows->repaired) / count;
+    result["in_one_piece"] = static_cast<double>(windows->in_one_piece) / collisions;
+    result["events_per_window"] = all / count;
+    result["in_zones"] = static_cast<double>(windows->in_zones) / all;
+    result["in_box"] = static_cast<double>(windows->in_box) / all;
+    result["busiest_thread"] = static_cast<double>(windows->longest) / all;
+  }
   if (json) {
     std::printf("%s\n", result.dump().c_str());
   } else {

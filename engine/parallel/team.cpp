@@ -1,0 +1,66 @@
+#include "engine/parallel/team.hpp"
+
+namespace haff::engine {
+namespace {
+
+// Some 100 microseconds of spinning, the last part of which lets other threads have the processor.
+constexpr int spins = 4000;
+constexpr int yields = 50;
+
+void pause() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#else
+  std::this_thread::yield();
+#endif
+}
+
+// Returns when the value is no longer `old`.
+void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
+  for (int k = 0; k < spins; ++k) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    pause();
+  }
+  for (int k = 0; k < yields; ++k) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    std::this_thread::yield();
+  }
+  value.wait(old, std::memory_order_acquire);
+}
+
+}  // namespace
+
+Team::Team(unsigned size) : size_(size) {
+  for (unsigned k = 1; k < size; ++k) threads_.emplace_back([this, k] { serve(k); });
+}
+
+Team::~Team() {
+  stop_ = true;
+  ++jobs_;
+  jobs_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void Team::run(const std::function<void(unsigned)>& job) {
+  job_ = &job;
+  busy_.store(size_ - 1, std::memory_order_relaxed);
+  jobs_.fetch_add(1, std::memory_order_release);
+  jobs_.notify_all();
+  job(0);
+  for (;;) {
+    const std::uint32_t busy = busy_.load(std::memory_order_acquire);
+    if (busy == 0) return;
+    wait_while(busy_, busy);
+  }
+}
+
+void Team::serve(unsigned number) {
+  for (std::uint32_t seen = 0;; ++seen) {
+    wait_while(jobs_, seen);
+    if (stop_) return;
+    (*job_)(number);
+    if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_all();
+  }
+}
+
+}  // namespace haff::engine

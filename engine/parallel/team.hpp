@@ -1,0 +1,40 @@
+// A team of threads that work on the parts of one job together, again and again.
+//
+// A window of the parallel event loop takes a few hundred microseconds, so the threads wait for the
+// next job by spinning for about as long before they sleep.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace haff::engine {
+
+class Team {
+ public:
+  // `size` threads, of which the calling one is the first.
+  explicit Team(unsigned size);
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  unsigned size() const { return size_; }
+
+  // Calls job(k) for every k = 0 ... size() - 1, each on its own thread, and returns when all of
+  // them are done. A job must not throw.
+  void run(const std::function<void(unsigned)>& job);
+
+ private:
+  void serve(unsigned number);
+
+  unsigned size_;
+  const std::function<void(unsigned)>* job_ = nullptr;
+  std::atomic<std::uint32_t> jobs_ = 0;  // begun so far
+  std::atomic<std::uint32_t> busy_ = 0;  // threads that have not finished the present one
+  std::atomic<bool> stop_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace haff::engine

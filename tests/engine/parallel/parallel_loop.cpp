@@ -1,0 +1,171 @@
+// Several threads compute the same bits as one: every effect, spheres and disks, any number of
+// threads, windows of any length, stops anywhere.
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/initial.hpp"
+#include "engine/simulation.hpp"
+#include "engine/support/random.hpp"
+
+using namespace haff::engine;
+
+namespace {
+
+struct Scene {
+  std::string name;
+  Model model;
+  int d = 3;
+  double n = 0.4;
+  std::uint32_t particles = 16'000;  // four slabs of four layers
+};
+
+const Parameters mixed{{"fraction", 0.5}, {"diameter_ratio", 0.8}, {"mass_ratio", 0.5}};
+const Parameters rough{{"beta", 0.5}, {"q", 0.4}};
+
+std::vector<Scene> scenes() {
+  return {
+      {"elastic", {.restitution = 1}},
+      {"inelastic", {.restitution = 0.8}},
+      {"dense", {.restitution = 0.9}, 3, 0.9, 40'000},
+      {"dilute", {.restitution = 0.7}, 3, 0.05},
+      {"threshold", {.restitution = 0.6, .law = {"threshold", {{"speed", 0.1}}}}},
+      {"tc", {.restitution = 0.6, .law = {"tc", {{"t_c", 1e-3}}}}},
+      {"viscoelastic", {.law = {"viscoelastic", {{"A", 0.1}}}}},
+      {"plastic", {.law = {"plastic", {{"speed", 0.1}}}}},
+      {"shuffle", {.restitution = 0.8, .effects = {{"shuffle", {{"every", 1}}}}, .seed = 3}},
+      {"thermostat", {.restitution = 0.8, .effects = {{"thermostat", {{"rate", 0.1}}}}, .seed = 3}},
+      {"rough", {.restitution = 0.8, .effects = {{"roughness", rough}}}},
+      {"mixture", {.restitution = 0.8, .effects = {{"mixture", mixed}}}},
+      {"rough mixture",
+       {.restitution = 0.8, .effects = {{"roughness", rough}, {"mixture", mixed}}}},
+      {"disks", {.restitution = 0.8}, 2, 0.4, 4000},
+      {"rough disks", {.restitution = 0.8, .effects = {{"roughness", rough}}}, 2, 0.4, 4000},
+      {"mixed disks", {.restitution = 0.8, .effects = {{"mixture", mixed}}}, 2, 0.4, 4000},
+  };
+}
+
+// Everything that can be seen of a gas at any time.
+void check_same(const Simulation& one, const Simulation& several) {
+  REQUIRE(several.collisions() == one.collisions());
+  CHECK(several.time() == one.time());
+  CHECK(several.ids() == one.ids());
+  CHECK(several.velocities() == one.velocities());
+  CHECK(several.positions() == one.positions());
+  CHECK(several.rotational_energy() == one.rotational_energy());
+  CHECK(several.invariants() == one.invariants());
+  CHECK(several.events().collisions == one.events().collisions);
+  CHECK(several.events().crossings == one.events().crossings);
+  CHECK(several.events().stale == one.events().stale);
+}
+
+}  // namespace
+
+// What is tested here is independent of how threads are scheduled, so one thread may work off all
+// slabs; the cases with real threads are further below.
+TEST_CASE("slabs: every effect, spheres and disks, in two to four slabs") {
+  for (const Scene& scene : scenes()) {
+    CAPTURE(scene.name);
+    const State start = initial_state(scene.n, scene.particles, 1, scene.d, scene.model.effects);
+    std::vector<std::unique_ptr<Simulation>> divided;
+    Simulation one(scene.model, start);
+    // Windows of random length, and stops at random collisions.
+    Random random(7, Stream::velocities);
+    for (const unsigned slabs : {2u, 3u, 4u}) {
+      const Threads threads{.count = 1, .slabs = slabs, .window = 0.001 + 0.02 * random.uniform()};
+      divided.push_back(
+          std::make_unique<Simulation>(scene.model, start, SearchBackend::simd, threads));
+      REQUIRE(divided.back()->windows());
+    }
+    for (const double tau : {0.3 + random.uniform(), 3 + random.uniform(), 10.0}) {
+      one.run_to(collisions_at(tau, scene.particles));
+      const Tally expected = one.take_tally();
+      for (const auto& several : divided) {
+        several->run_to(collisions_at(tau, scene.particles));
+        check_same(one, *several);
+        const Tally tally = several->take_tally();
+        CHECK(tally == expected);
+        CHECK(several->windows()->in_slabs > 0);
+      }
+    }
+    REQUIRE(one.synchronized());
+    for (const auto& several : divided) CHECK(several->state() == one.state());
+  }
+}
+
+TEST_CASE("threads: two, three and four") {
+  for (const Scene& scene : scenes()) {
+    if (scene.name != "inelastic" && scene.name != "rough" && scene.name != "disks") continue;
+    CAPTURE(scene.name);
+    const State start = initial_state(scene.n, scene.particles, 1, scene.d, scene.model.effects);
+    Simulation one(scene.model, start);
+    one.run_to(collisions_at(2.5, scene.particles));
+    for (const unsigned count : {2u, 3u, 4u}) {
+      Simulation several(scene.model, start, SearchBackend::simd, {.count = count});
+      several.run_to(collisions_at(2.5, scene.particles));
+      check_same(one, several);
+    }
+  }
+}
+
+TEST_CASE("threads: windows far too long are noticed, undone and repaired") {
+  for (const Scene& scene : scenes()) {
+    if (scene.name != "inelastic" && scene.name != "rough" && scene.name != "disks") continue;
+    CAPTURE(scene.name);
+    const State start = initial_state(scene.n, scene.particles, 2, scene.d, scene.model.effects);
+    Simulation one(scene.model, start);
+    one.run_to(collisions_at(5, scene.particles));
+    std::int64_t repaired = 0;
+    for (const double window : {0.05, 0.3, 1.0}) {
+      CAPTURE(window);
+      Simulation several(scene.model, start, SearchBackend::simd,
+                         {.count = 1, .slabs = 4, .window = window});
+      several.run_to(collisions_at(5, scene.particles));
+      check_same(one, several);
+      repaired += several.windows()->repaired;
+    }
+    CHECK(repaired > 0);
+  }
+}
+
+TEST_CASE("threads: a run may change their number wherever it is stored") {
+  const State start = initial_state(0.4, 16'000, 3);
+  const Model model{.restitution = 0.8};
+  Simulation one(model, start);
+  one.run_to(collisions_at(30, 16'000));
+  State state = start;
+  for (const unsigned count : {3u, 1u, 4u}) {
+    Simulation part(model, state, SearchBackend::simd, {.count = 1, .slabs = count});
+    part.run_to(part.collisions() + collisions_at(synchronization_period, 16'000));
+    state = part.state();
+  }
+  CHECK(state == one.state());
+}
+
+TEST_CASE("threads: a box too small to be divided runs on one thread") {
+  const State start = initial_state(0.4, 500, 1);
+  const Simulation gas({.restitution = 0.8}, start, SearchBackend::simd, {.count = 4});
+  CHECK_FALSE(gas.windows());
+}
+
+TEST_CASE("threads: a collapse is the same one") {
+  // Cold, dense and very inelastic: it collapses within a few collisions per particle.
+  const State start = initial_state(0.6, 16'000, 1);
+  const Model model{.restitution = 0.05};
+  const auto collapse_of = [&](unsigned count) {
+    Simulation gas(model, start, SearchBackend::simd, {.count = 1, .slabs = count});
+    std::string message = "none";
+    try {
+      gas.run_to(collisions_at(20, 16'000));
+    } catch (const Collapse& collapse) {
+      message = collapse.what();
+    }
+    return std::pair(message, gas.velocities());
+  };
+  const auto one = collapse_of(1);
+  CHECK(one.first != "none");
+  CHECK(collapse_of(2) == one);
+  CHECK(collapse_of(4) == one);
+}
