@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "campaign/base/command_text.hpp"
 #include "campaign/base/duration.hpp"
@@ -17,6 +18,7 @@ constexpr int most_workers = 1024;
 constexpr int most_rounds = 1000;
 constexpr int default_rounds = 20;
 constexpr double default_put_back_every = 600;  // [s]
+constexpr int most_threads = 64;                // of a worker
 constexpr int most_shards = 100'000;
 
 constexpr const char* exit_codes = R"(Exit codes:
@@ -56,10 +58,24 @@ A standard error instead of a number of seeds; those given are pilot runs, `run`
 CLI::App* add_run(CLI::App& app, RunOptions& options) {
   options.workers = processors();
   auto* command = app.add_subcommand("run", "Run all that is pending, equilibrations first");
-  command->add_option("--workers", options.workers, "Worker processes, one job each at a time")
-      ->check(CLI::Range(1, most_workers))
-      ->type_name("K")
+  const auto* workers =
+      command
+          ->add_option("--workers", options.workers,
+                       "Worker processes, one job each at a time; by default one for every "
+                       "--threads processors")
+          ->check(CLI::Range(1, most_workers))
+          ->type_name("K")
+          ->capture_default_str();
+  command
+      ->add_option("--threads", options.threads,
+                   "Threads of each worker, for large gases (100 000 particles and more); every "
+                   "number gives the same rows")
+      ->check(CLI::Range(1, most_threads))
+      ->type_name("T")
       ->capture_default_str();
+  command->callback([&options, workers] {
+    if (workers->count() == 0) options.workers = std::max(1, processors() / options.threads);
+  });
   const auto set_max_time = [&options](const std::string& text) {
     options.max_seconds = seconds_from_text(text);
     if (!options.max_seconds)
@@ -335,6 +351,7 @@ CLI::App* add_worker(CLI::App& app, WorkerCommand& options) {
   auto* command = app.add_subcommand("worker", "")->group("");  // not shown
   command->add_option("DESCRIPTOR", options.report_descriptor)->required();
   command->add_option("--until", options.until);
+  command->add_option("--threads", options.threads)->check(CLI::Range(1, most_threads));
   return command;
 }
 

@@ -33,6 +33,7 @@ struct VerifyCommand {};
 struct RetryCommand {};
 struct WorkerCommand {  // what `run` starts; not for people
   int report_descriptor = 0;
+  int threads = 1;
   std::optional<double> until;  // on the monotonic clock [s]
 };
 

@@ -58,7 +58,7 @@ struct CommandDispatcher {
   int operator()(const WorkerCommand& command) const {
     std::optional<Deadline> deadline;
     if (command.until) deadline = Deadline(Deadline::duration(*command.until));
-    return work(line.store, command.report_descriptor, deadline);
+    return work(line.store, command.report_descriptor, deadline, command.threads);
   }
 };
 

@@ -33,8 +33,13 @@ constexpr double patience = 1.0;
 
 }  // namespace
 
-Attempt::Attempt(schema::Store& store, const schema::Claim& claim, const Reporter& reporter)
-    : store_(store), claim_(claim), reporter_(reporter), cpu_at_start_(cpu_seconds()) {}
+Attempt::Attempt(schema::Store& store, const schema::Claim& claim, const Reporter& reporter,
+                 unsigned threads)
+    : store_(store),
+      claim_(claim),
+      reporter_(reporter),
+      threads_(threads),
+      cpu_at_start_(cpu_seconds()) {}
 
 std::optional<engine::State> Attempt::stored_state() const {
   if (claim_.starts_over) return std::nullopt;
@@ -61,7 +66,8 @@ void Attempt::begin(const engine::State& state) {
   });
   committed_ = samples_.size();
   views_ = {};
-  gas_.emplace(model_of(job()), state);
+  gas_.emplace(model_of(job()), state, engine::SearchBackend::simd,
+               engine::Threads{.count = threads_});
   speed_from_ = gas_->collisions();
   speed_since_ = renewed_ = Clock::now();
   report_progress();

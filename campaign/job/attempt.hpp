@@ -22,7 +22,8 @@ enum class Ending { finished, collapsed, left };
 
 class Attempt {
  public:
-  Attempt(schema::Store& store, const schema::Claim& claim, const Reporter& reporter);
+  Attempt(schema::Store& store, const schema::Claim& claim, const Reporter& reporter,
+          unsigned threads = 1);
 
   const schema::Job& job() const { return claim_.job; }
   const schema::Claim& claim() const { return claim_; }
@@ -71,6 +72,7 @@ class Attempt {
   schema::Store& store_;
   const schema::Claim& claim_;
   const Reporter& reporter_;
+  unsigned threads_;
   std::optional<engine::Simulation> gas_;
   std::vector<schema::Sample> samples_;
   std::size_t committed_ = 0;  // of samples_, or in the store from an earlier attempt

@@ -84,8 +84,8 @@ class Coordinator {
   void start_workers() {
     for (std::size_t k = 0; k < workers_.size(); ++k)
       if (!workers_[k] && !has_finished_[k])
-        workers_[k] =
-            std::make_unique<WorkerProcess>(options_.store, deadline_of(options_, start_));
+        workers_[k] = std::make_unique<WorkerProcess>(options_.store, deadline_of(options_, start_),
+                                                      options_.threads);
   }
 
   void listen() {

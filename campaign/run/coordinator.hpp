@@ -13,6 +13,7 @@ namespace haff::campaign {
 struct RunOptions {
   std::filesystem::path store;
   int workers = 1;
+  int threads = 1;                    // of each worker
   std::optional<double> max_seconds;  // wall clock
   std::optional<double> cpu_budget;   // of all workers together [s]
 };

@@ -83,9 +83,10 @@ void fail(schema::Store& store, const schema::Claim& claim, const std::string& e
                                               claim.attempts + 1, schema::max_attempts, error)});
 }
 
-void work_on(schema::Store& store, const schema::Claim& claim, const Reporter& reporter) {
+void work_on(schema::Store& store, const schema::Claim& claim, const Reporter& reporter,
+             int threads) {
   reporter.send(LogReport{Level::debug, name_of(claim) + " begins"});
-  Attempt attempt(store, claim, reporter);
+  Attempt attempt(store, claim, reporter, static_cast<unsigned>(threads));
   try {
     if (const auto error = error_of(attempt, reporter)) fail(store, claim, *error, reporter);
   } catch (const schema::LeaseLost&) {
@@ -107,8 +108,8 @@ std::optional<double> least_seconds_needed(const schema::Reader& store) {
   return expected ? std::optional(margin * *expected) : std::nullopt;
 }
 
-int work(const std::filesystem::path& path, int report_descriptor,
-         std::optional<Deadline> deadline) {
+int work(const std::filesystem::path& path, int report_descriptor, std::optional<Deadline> deadline,
+         int threads) {
   note_stop_signals();
   const Reporter reporter(report_descriptor);
   try {
@@ -120,7 +121,7 @@ int work(const std::filesystem::path& path, int report_descriptor,
       const auto fit = what_fits(deadline);
       if (store.has_claimable(fit)) {
         if (const auto claim = store.claim(me, code_version(), fit))
-          work_on(store, *claim, reporter);
+          work_on(store, *claim, reporter, threads);
         continue;
       }
       reporter.send(IdleReport{});

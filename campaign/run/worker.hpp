@@ -26,10 +26,11 @@ std::optional<schema::Fit> what_fits(std::optional<Deadline> deadline);
 // margin for what the expectation leaves out (a busy machine, a clustered gas). [s]
 std::optional<double> least_seconds_needed(const schema::Reader& store);
 
-// Works on the store; reports go to this file descriptor. Stops in order on the signals of
-// base/signals.hpp; on SIGUSR1 only after a first checkpoint of its job is stored. Takes no job of
-// which nothing could be stored before the deadline. Returns an exit code of the above.
+// Works on the store, with so many threads for a job; reports go to this file descriptor. Stops in
+// order on the signals of base/signals.hpp; on SIGUSR1 only after a first checkpoint of its job is
+// stored. Takes no job of which nothing could be stored before the deadline. Returns an exit code
+// of the above.
 int work(const std::filesystem::path& store, int report_descriptor,
-         std::optional<Deadline> deadline);
+         std::optional<Deadline> deadline, int threads = 1);
 
 }  // namespace haff::campaign

@@ -33,13 +33,19 @@ std::system_error system_error(const char* what) {
 
 }  // namespace
 
-WorkerProcess::WorkerProcess(const std::filesystem::path& store, std::optional<Deadline> deadline) {
+WorkerProcess::WorkerProcess(const std::filesystem::path& store, std::optional<Deadline> deadline,
+                             int threads) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw system_error("cannot make a pipe for a worker");
   const auto [read_end, write_end] = ends;
 
-  std::vector<std::string> words{"campaign", "--store", store.string(), "worker",
-                                 std::to_string(write_end)};
+  std::vector<std::string> words{"campaign",
+                                 "--store",
+                                 store.string(),
+                                 "worker",
+                                 std::to_string(write_end),
+                                 "--threads",
+                                 std::to_string(threads)};
   if (deadline) {
     words.emplace_back("--until");
     words.push_back(fmt::format("{}", deadline->time_since_epoch().count()));

@@ -22,7 +22,7 @@ class WorkerProcess {
  public:
   // Starts it. It dies (SIGKILL) with this process, and takes no job of which nothing can be stored
   // before `deadline`. Throws std::system_error.
-  WorkerProcess(const std::filesystem::path& store, std::optional<Deadline> deadline);
+  WorkerProcess(const std::filesystem::path& store, std::optional<Deadline> deadline, int threads);
   ~WorkerProcess();  // kills and reaps it if it still lives
   WorkerProcess(WorkerProcess&& other) noexcept;
   WorkerProcess& operator=(WorkerProcess&&) = delete;

@@ -20,8 +20,9 @@ template <std::size_t padded>
 }
 
 // Integers only, so no bit depends on which of the two versions runs. The loader chooses one, which
-// that of glibc can; of the processors, only x86 has a default that is older than its vectors.
-#if defined(__x86_64__) && defined(__GLIBC__)
+// that of glibc can; of the processors, only x86 has a default that is older than its vectors. The
+// loader chooses before the thread sanitizer is ready.
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_THREAD__)
 [[gnu::target_clones("avx2", "default")]]
 #endif
 void rank_keys(const Keys& key, std::size_t count, Keys& rank) {
