@@ -347,6 +347,72 @@ renaming, from time to time and at the end; signals stop it in order.)"));
   return command;
 }
 
+CLI::App* add_theory(CLI::App& app, TheoryOptions& options) {
+  auto* command = app.add_subcommand("theory", "Print a theory curve: table, CSV or JSON");
+  command->add_option("CURVE", options.curve, "Which one; --list names them")->type_name("NAME");
+  command->add_flag("--list", options.list, "The curves, what they are functions of");
+  command->add_option("--d", options.d, "Dimension")
+      ->check(CLI::IsMember({2, 3}))
+      ->type_name("2|3")
+      ->capture_default_str();
+  const auto add_values = [command](const char* name, std::vector<double>& values,
+                                    const char* what) {
+    const auto set = [name, &values](const std::string& text) {
+      const auto read = values_from_text(text);
+      if (!read)
+        throw CLI::ValidationError(name,
+                                   "'" + text + "' is no number, list 1,2,5 or range FROM:TO:STEP");
+      values = *read;
+    };
+    command->add_option_function<std::string>(name, set, what)->type_name("VALUES");
+  };
+  add_values("--e", options.e, "Restitution coefficient (0.85)");
+  add_values("--n", options.n, "Number density [sigma^-d] (0.4)");
+  add_values("--tau", options.tau, "Collisions per particle (0:40:1; of curves in r 50)");
+  add_values("--r", options.r, "Distances [sigma] (1:20:0.5)");
+  add_values("--k", options.k, "Wave numbers [1/sigma] (0.02:1:0.02)");
+  command->add_option("--b", options.b, "Cutoff number of the energy equation")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--effects", options.effects, "As in a grid: restitution, thermostat, shuffle")
+      ->type_name("JSON")
+      ->capture_default_str();
+  command->add_option("--particles", options.particles, "Of a direct simulation computed now")
+      ->check(CLI::Range(2, 100'000'000))
+      ->capture_default_str();
+  command->add_option("--realizations", options.realizations, "Likewise; errors fall with its root")
+      ->check(CLI::Range(2, 1'000'000))
+      ->capture_default_str();
+  command->add_option("--seed", options.seed, "Likewise")->capture_default_str();
+  const auto set_format = [&options](const std::string& name) {
+    options.format = name == "csv"    ? RowFormat::csv
+                     : name == "json" ? RowFormat::json
+                                      : RowFormat::table;
+  };
+  command->add_option_function<std::string>("--format", set_format, "How to print the rows")
+      ->check(CLI::IsMember({"table", "csv", "json"}))
+      ->type_name("table|csv|json")
+      ->default_str("table");
+  command->footer(R"(Examples:
+  campaign theory --list
+  campaign theory a2 --d 3 --e 0.85 --tau 0:40:1 --format csv
+  campaign theory gamma_ratio --e 0.9 --n 0.4 --tau 0:100:5
+  campaign theory tau_c --e 0.80,0.85,0.90,0.95
+  campaign theory G_parallel --e 0.8 --tau 50 --r 2:30:0.5
+  campaign theory a2 --e 0.77 --realizations 64
+  campaign theory temperature --effects '{"restitution": {"law": "viscoelastic", "A": 0.05}}'
+
+VALUES are a number, a list 1,2,5 or a range FROM:TO:STEP. Columns:
+  second_order      Enskog-Boltzmann theory to first order in a_2 (its plateau is -A/B)
+  dsmc, dsmc_se     the Enskog-Boltzmann equation itself by direct simulation, and its standard
+                    error: from a table at e = 0.7, 0.8, 0.85, 0.865, 0.9, 0.95, 0.98, 1, else
+                    computed now (--particles, --realizations; some ten seconds)
+  energy_equation   with velocity correlations; non_gaussian: a_2 taken into account as well
+No store is read. A shuffle changes nothing in a homogeneous gas: its theory is that without.)");
+  return command;
+}
+
 CLI::App* add_worker(CLI::App& app, WorkerCommand& options) {
   auto* command = app.add_subcommand("worker", "")->group("");  // not shown
   command->add_option("DESCRIPTOR", options.report_descriptor)->required();
@@ -405,6 +471,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   RecallOptions recall;
   SubmitOptions submit;
   TaskOptions task;
+  TheoryOptions theory;
   WorkerCommand worker;
   const CLI::App* plan_command = add_plan(app, plan);
   const CLI::App* run_command = add_run(app, run);
@@ -420,6 +487,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   const CLI::App* recall_command = add_recall(app, recall);
   const CLI::App* submit_command = add_submit(app, submit);
   const CLI::App* task_command = add_task(app, task);
+  const CLI::App* theory_command = add_theory(app, theory);
   const CLI::App* worker_command = add_worker(app, worker);
 
   try {
@@ -447,6 +515,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   if (recall_command->parsed()) line.command = recall;
   if (submit_command->parsed()) line.command = submit;
   if (task_command->parsed()) line.command = task;
+  if (theory_command->parsed()) line.command = theory;
   if (worker_command->parsed()) line.command = worker;
   return line;
 }

@@ -15,6 +15,7 @@
 #include "campaign/commands/run.hpp"
 #include "campaign/commands/split.hpp"
 #include "campaign/commands/submit.hpp"
+#include "campaign/commands/theory.hpp"
 #include "campaign/paper/figures.hpp"
 
 namespace haff::campaign {
@@ -40,7 +41,7 @@ struct WorkerCommand {  // what `run` starts; not for people
 using Command =
     std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest, CostRequest,
                  ExportCommand, VerifyCommand, RetryCommand, SplitOptions, MergeOptions,
-                 RecallOptions, SubmitOptions, TaskOptions, WorkerCommand>;
+                 RecallOptions, SubmitOptions, TaskOptions, TheoryOptions, WorkerCommand>;
 
 struct CommandLine {
   std::filesystem::path store;

@@ -16,6 +16,7 @@
 #include "campaign/commands/retry.hpp"
 #include "campaign/commands/run.hpp"
 #include "campaign/commands/status.hpp"
+#include "campaign/commands/theory.hpp"
 #include "campaign/commands/verify.hpp"
 #include "campaign/paper/figures.hpp"
 #include "campaign/run/worker.hpp"
@@ -55,6 +56,7 @@ struct CommandDispatcher {
   int operator()(const RecallOptions& options) const { return recall(options); }
   int operator()(const SubmitOptions& options) const { return submit(options); }
   int operator()(const TaskOptions& options) const { return task(options); }
+  int operator()(const TheoryOptions& options) const { return theory(options); }
   int operator()(const WorkerCommand& command) const {
     std::optional<Deadline> deadline;
     if (command.until) deadline = Deadline(Deadline::duration(*command.until));
@@ -81,6 +83,8 @@ int perform(int argc, char** argv) try {
   return failure(error, exit_failed);
 } catch (const schema::StoreError& error) {
   // No store, not a store, not SQL: another was named or typed than was meant.
+  return failure(error, exit_bad_input);
+} catch (const TheoryError& error) {
   return failure(error, exit_bad_input);
 } catch (const UnknownFigure& error) {
   return failure(error, exit_bad_input);

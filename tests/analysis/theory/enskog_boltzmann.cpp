@@ -72,3 +72,15 @@ TEST_CASE(
   // 16 * 0.1 * (1 - 1.62) / (73 + 168 - 64.8 - 94.5 + 2.43), evaluated by hand.
   CHECK(heated_a2(0.9) == Approx(-0.992 / 84.13).epsilon(1e-12));
 }
+
+TEST_CASE("enskog-boltzmann: the first slope of a2 is A, that of a3 is positive where e is small") {
+  for (const int d : {2, 3}) {
+    for (const double e : {0.0, 0.5, 0.9})
+      CHECK(boltzmann_initial_slopes(e, d).a2 ==
+            Approx((e * e - 1) * (2 * e * e - 1) / (d * (d + 2))).epsilon(1e-14));
+    CHECK(boltzmann_initial_slopes(1, d).a3 == 0);
+  }
+  // e = 0 in 3-d, by hand: J = -(26.25 + 21 + 6) - 2 (7.5 + 6) - 6 = -86.25 of <v^6>, so that
+  // a_3' = 3/15 - (-86.25/105 + 1).
+  CHECK(boltzmann_initial_slopes(0, 3).a3 == Approx(0.2 + 86.25 / 105 - 1).epsilon(1e-14));
+}

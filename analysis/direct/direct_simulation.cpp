@@ -1,0 +1,340 @@
+#include "analysis/direct/direct_simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "analysis/direct/random.hpp"
+#include "analysis/theory/cooling.hpp"
+#include "analysis/theory/enskog.hpp"
+
+namespace haff::analysis {
+
+double nominal_restitution(const Restitution& law) {
+  return std::visit(
+      [](const auto& each) {
+        if constexpr (requires { each.e; }) return each.e;
+        return 0.0;
+      },
+      law);
+}
+
+namespace {
+
+using Velocity = std::array<double, 3>;
+
+// Largest relative speed that is tried, in units of sqrt(2 T), the standard deviation of each of
+// its components. Pairs beyond it are accepted always and so a little too rarely: one in 10^8 of a
+// Gaussian gas.
+constexpr double fastest = 6.5;
+
+// From sums of fair bits, whose a_2 is below 2e-3, to a Gaussian: a_2 relaxes as exp(-0.53 tau) in
+// 3-d and exp(-0.5 tau) in 2-d, higher coefficients faster, to below 5e-6.
+constexpr double tau_to_gaussian = 12;
+constexpr int bits_of_start = 4;  // words of 64
+
+// The energy, from which the largest speed follows, and the scale are looked at this often; T
+// changes by less than 2 % in between. [collisions per particle]
+constexpr double round_length = 1.0 / 16;
+
+// Kicks of a thermostat, in the middle between multiples of it, so that T and a_2 at its multiples
+// are those of continuous noise to second order. [collisions per particle]
+constexpr double kick_period = 1.0 / 16;
+
+// Velocities are scaled by a power of two when T has fallen so far that v^12 would underflow soon.
+constexpr int coldest_exponent = -40;  // of T
+
+// Pairs drawn per particle for the mean loss and rate of one sample: more would repeat what the
+// finite number of particles knows.
+constexpr int pairs_per_particle = 1;
+
+template <int d>
+class Realization {
+ public:
+  Realization(const HomogeneousGas& gas, std::uint32_t particles, std::uint64_t seed,
+              std::uint64_t stream)
+      : random_(seed, stream),
+        heating_(gas.heating),
+        pair_rate_((d == 2 ? 2 : std::numbers::pi) * contact_value(gas.n, d) * gas.n),
+        velocity_(particles),
+        last_(particles) {
+    for (Velocity& v : velocity_) {
+      v = {};
+      for (int word = 0; word < bits_of_start; ++word)
+        for (int axis = 0; axis < d; ++axis) v[static_cast<std::size_t>(axis)] += random_.bell();
+    }
+    start();
+    advance(ConstantRestitution{1}, tau_to_gaussian);
+    start();
+  }
+
+  // Runs until the particles have collided tau times each on average.
+  template <class Law>
+  void advance(const Law& law, double tau) {
+    const auto wanted = static_cast<std::int64_t>(std::llround(tau * count() / 2));
+    while (collisions_ < wanted) {
+      const std::int64_t next_round = from_rounds(static_cast<double>(round_ + 1), round_length);
+      const std::int64_t next_kick =
+          heating_ > 0 ? from_rounds(static_cast<double>(kick_) + 0.5, kick_period) : wanted;
+      collide(law, std::min({wanted, next_round, next_kick}));
+      if (collisions_ == next_round) {
+        ++round_;
+        look();
+      }
+      if (heating_ > 0 && collisions_ == next_kick) {
+        ++kick_;
+        kick();
+      }
+    }
+  }
+
+  template <class Law>
+  DirectSample sample(const Law& law, double nominal) {
+    const Moments now = moments(velocity_, d);
+    DirectSample result{
+        .time = time_, .temperature = now.temperature * unit_ * unit_, .laguerre = now.laguerre};
+    double speeds = 0, losses = 0;
+    const auto pairs = static_cast<std::int64_t>(velocity_.size()) * pairs_per_particle;
+    for (std::int64_t pair = 0; pair < pairs; ++pair) {
+      const auto [i, j] = draw();
+      if (i == j) continue;
+      const double v = std::sqrt(square(difference(i, j)));
+      speeds += v;
+      // Normal components of a head-on and a glancing collision in one: the impact parameter is
+      // uniform in the disk (of disks: on the line), and b and its opposite are both taken.
+      const double b = random_.uniform();
+      losses += v * 0.5 * (loss(law, v, b, i, j) + loss(law, v, 1 - b, i, j));
+    }
+    const double drawn = static_cast<double>(pairs) * (1 - 1 / count());
+    const double gaussian_speed =
+        std::sqrt(now.temperature * (d == 2 ? std::numbers::pi : 16 / std::numbers::pi));
+    result.rate_ratio = speeds / drawn / gaussian_speed;
+    // <v_n^2> of collisions in a Gaussian gas is 4 T.
+    result.gamma_ratio = nominal > 0 && nominal < 1
+                             ? losses / speeds / ((1 - nominal * nominal) * 4 * now.temperature)
+                             : std::numeric_limits<double>::quiet_NaN();
+    return result;
+  }
+
+ private:
+  double count() const { return static_cast<double>(velocity_.size()); }
+
+  std::int64_t from_rounds(double rounds, double length) const {
+    return static_cast<std::int64_t>(std::llround(rounds * length * count() / 2));
+  }
+
+  // Momentum zero, E = 1, clocks at zero; nobody has collided yet.
+  void start() {
+    remove_momentum();
+    const double scale = std::sqrt(2.0 / d / moments(velocity_, d).temperature);
+    for (Velocity& v : velocity_)
+      for (double& component : v) component *= scale;
+    unit_ = 1;
+    time_ = last_kick_ = 0;
+    collisions_ = round_ = kick_ = 0;
+    last_.assign(last_.size(), -std::numeric_limits<double>::infinity());
+    look();
+  }
+
+  void remove_momentum() {
+    Velocity sum{};
+    for (const Velocity& v : velocity_)
+      for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += v[axis];
+    for (Velocity& v : velocity_)
+      for (std::size_t axis = 0; axis < 3; ++axis) v[axis] -= sum[axis] / count();
+  }
+
+  // The largest speed and the time between trials by the temperature of now.
+  void look() {
+    double temperature = moments(velocity_, d).temperature;
+    if (std::ilogb(temperature) < coldest_exponent) {
+      const int up = -std::ilogb(temperature) / 2;
+      for (Velocity& v : velocity_)
+        for (double& component : v) component = std::ldexp(component, up);
+      unit_ = std::ldexp(unit_, -up);
+      temperature = std::ldexp(temperature, 2 * up);
+    }
+    top_speed_ = fastest * std::sqrt(2 * temperature);
+    between_trials_ = 2 / (count() * pair_rate_ * top_speed_ * unit_);
+  }
+
+  std::array<std::size_t, 2> draw() {
+    const std::uint64_t bits = random_.bits();
+    const auto among = [this](std::uint64_t word) {
+      return static_cast<std::size_t>((word * velocity_.size()) >> 32);
+    };
+    return {among(bits >> 32), among(bits & 0xffffffffu)};
+  }
+
+  Velocity difference(std::size_t i, std::size_t j) const {
+    const Velocity& a = velocity_[i];
+    const Velocity& b = velocity_[j];
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  }
+
+  static double square(const Velocity& v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
+
+  // Uniform on the unit sphere (circle): a point of the ball, J. von Neumann's way.
+  Velocity direction() {
+    for (;;) {
+      Velocity r{};
+      for (int axis = 0; axis < d; ++axis)
+        r[static_cast<std::size_t>(axis)] = 2 * random_.uniform() - 1;
+      const double r2 = square(r);
+      if (r2 > 1 || r2 < 1e-4) continue;  // the smallest would be rounded coarsely
+      const double inverse = 1 / std::sqrt(r2);
+      for (double& component : r) component *= inverse;
+      return r;
+    }
+  }
+
+  double age(std::size_t i, std::size_t j) const { return time_ - std::max(last_[i], last_[j]); }
+
+  // (1 - e^2) v_n^2 of a collision at speed v, v_n^2 = v^2 (1 - b^2) with b^2 uniform (of disks b).
+  template <class Law>
+  double loss(const Law& law, double v, double b, std::size_t i, std::size_t j) const {
+    const double normal2 = v * v * (d == 2 ? 1 - b * b : 1 - b);
+    const double e = law(std::sqrt(normal2) * unit_, age(i, j));
+    return (1 - e * e) * normal2;
+  }
+
+  template <class Law>
+  void collide(const Law& law, std::int64_t until) {
+    const double top2 = top_speed_ * top_speed_;
+    while (collisions_ < until) {
+      time_ += between_trials_;
+      const auto [i, j] = draw();
+      const double share = random_.uniform();
+      const Velocity v = difference(i, j);
+      const double speed2 = square(v);
+      if (share * share * top2 >= speed2) continue;
+      Velocity n{};
+      double normal = 0;
+      do {
+        n = direction();
+        normal = v[0] * n[0] + v[1] * n[1] + v[2] * n[2];
+      } while (std::abs(normal) < random_.uniform() * std::sqrt(speed2));
+      const double e = law(std::abs(normal) * unit_, age(i, j));
+      const double change = 0.5 * (1 + e) * normal;
+      for (std::size_t axis = 0; axis < d; ++axis) {
+        velocity_[i][axis] -= change * n[axis];
+        velocity_[j][axis] += change * n[axis];
+      }
+      last_[i] = last_[j] = time_;
+      ++collisions_;
+    }
+  }
+
+  // White noise since the last kick, less what the centre of mass would take.
+  void kick() {
+    const double variance = 2 * heating_ / d * (time_ - last_kick_) * count() / (count() - 1);
+    const double width = std::sqrt(variance) / unit_;
+    last_kick_ = time_;
+    for (Velocity& v : velocity_)
+      for (int axis = 0; axis < d; ++axis)
+        v[static_cast<std::size_t>(axis)] += width * random_.bell();
+    remove_momentum();
+    look();
+  }
+
+  Random random_;
+  double heating_;
+  double pair_rate_;  // chi n sigma^(d-1) c_d
+  std::vector<Velocity> velocity_;
+  std::vector<double> last_;  // time of the last collision
+  double unit_ = 1;           // true velocity of a stored 1
+  double time_ = 0;
+  double last_kick_ = 0;
+  double top_speed_ = 0;
+  double between_trials_ = 0;
+  std::int64_t collisions_ = 0;
+  std::int64_t round_ = 0;
+  std::int64_t kick_ = 0;
+};
+
+template <int d, class Law>
+std::vector<DirectSample> run(Realization<d> realization, const Law& law, double nominal,
+                              std::span<const double> tau) {
+  std::vector<DirectSample> samples;
+  for (const double each : tau) {
+    realization.advance(law, each);
+    samples.push_back(realization.sample(law, nominal));
+  }
+  return samples;
+}
+
+// Mean of one member over realizations, at one tau or over several.
+template <class Of>
+Estimate mean_of(const DirectRealizations& realizations, std::size_t first, std::size_t last,
+                 const Of& of) {
+  std::vector<double> values;
+  for (const auto& samples : realizations) {
+    double sum = 0;
+    for (std::size_t k = first; k < last; ++k) sum += of(samples[k]);
+    values.push_back(sum / static_cast<double>(last - first));
+  }
+  return estimate(values);
+}
+
+DirectPoint point_of(const DirectRealizations& realizations, std::size_t first, std::size_t last) {
+  const auto mean = [&](const auto& of) { return mean_of(realizations, first, last, of); };
+  DirectPoint point{
+      .time = mean([](const DirectSample& s) { return s.time; }),
+      .temperature = mean([](const DirectSample& s) { return s.temperature; }),
+      .gamma_ratio = mean([](const DirectSample& s) { return s.gamma_ratio; }),
+      .rate_ratio = mean([](const DirectSample& s) { return s.rate_ratio; }),
+  };
+  for (std::size_t l = 0; l < point.laguerre.size(); ++l)
+    point.laguerre[l] = mean([l](const DirectSample& s) { return s.laguerre[l]; });
+  return point;
+}
+
+}  // namespace
+
+std::vector<DirectSample> direct_realization(const HomogeneousGas& gas, std::span<const double> tau,
+                                             std::uint32_t particles, std::uint64_t seed,
+                                             std::uint64_t stream) {
+  if (particles < 2) throw std::invalid_argument("direct simulation: at least two particles");
+  if (gas.d != 2 && gas.d != 3)
+    throw std::invalid_argument("direct simulation: dimension must be 2 or 3");
+  const double nominal = nominal_restitution(gas.law);
+  if (!(nominal >= 0 && nominal <= 1 && gas.heating >= 0 && gas.n > 0))
+    throw std::invalid_argument("direct simulation: 0 <= e <= 1, n > 0 and heating >= 0");
+  double last = 0;
+  for (const double each : tau) {
+    if (!(each >= last)) throw std::invalid_argument("direct simulation: tau must not decrease");
+    last = each;
+  }
+  return std::visit(
+      [&](const auto& law) {
+        return gas.d == 2 ? run(Realization<2>(gas, particles, seed, stream), law, nominal, tau)
+                          : run(Realization<3>(gas, particles, seed, stream), law, nominal, tau);
+      },
+      gas.law);
+}
+
+DirectRealizations direct_realizations(const HomogeneousGas& gas, std::span<const double> tau,
+                                       const SimulationSize& size) {
+  if (size.realizations < 2)
+    throw std::invalid_argument("direct simulation: an error takes two realizations");
+  DirectRealizations all;
+  for (std::uint32_t k = 0; k < size.realizations; ++k)
+    all.push_back(direct_realization(gas, tau, size.particles, size.seed, k));
+  return all;
+}
+
+std::vector<DirectPoint> direct_means(const DirectRealizations& realizations) {
+  std::vector<DirectPoint> points;
+  for (std::size_t k = 0; k < realizations.front().size(); ++k)
+    points.push_back(point_of(realizations, k, k + 1));
+  return points;
+}
+
+DirectPoint direct_plateau(const DirectRealizations& realizations, std::size_t first) {
+  return point_of(realizations, first, realizations.front().size());
+}
+
+}  // namespace haff::analysis

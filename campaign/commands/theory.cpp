@@ -1,0 +1,207 @@
+#include "campaign/commands/theory.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/direct/table.hpp"
+#include "campaign/base/csv.hpp"
+#include "campaign/base/exit_code.hpp"
+#include "campaign/base/output.hpp"
+#include "campaign/base/text_table.hpp"
+#include "campaign/commands/theory_curves.hpp"
+
+namespace haff::campaign {
+namespace {
+
+using nlohmann::json;
+
+std::vector<double> range(double from, double to, double step) {
+  // Half a step of rounding: both ends belong to it.
+  const auto last = static_cast<std::size_t>((to - from) / step + 1e-9);
+  std::vector<double> values;
+  for (std::size_t k = 0; k <= last; ++k) values.push_back(from + static_cast<double>(k) * step);
+  return values;
+}
+
+void print_list() {
+  TextTable table({{"curve", Align::left}, {"of", Align::left}, {"what", Align::left}});
+  for (const TheoryCurve& curve : theory_curves())
+    table.add({std::string(curve.name), std::string(curve.variable), std::string(curve.meaning)});
+  say("{}", table.text());
+}
+
+double parameter(const json& effect, const char* effect_name, const char* key) {
+  if (!effect.contains(key) || !effect[key].is_number() || !(effect[key].get<double>() > 0))
+    throw TheoryError(fmt::format("--effects: {} needs a number {} above 0", effect_name, key));
+  return effect[key];
+}
+
+analysis::Restitution law_of(const json& restitution, double e) {
+  const std::string law = restitution.value("law", "constant");
+  const auto of = [&](const char* key) { return parameter(restitution, law.c_str(), key); };
+  if (law == "constant") return analysis::ConstantRestitution{e};
+  if (law == "threshold") return analysis::ThresholdRestitution{e, of("speed")};
+  if (law == "tc") return analysis::ContactDurationRestitution{e, of("t_c")};
+  if (law == "viscoelastic") return analysis::ViscoelasticRestitution{of("A")};
+  if (law == "plastic") return analysis::PlasticRestitution{of("speed")};
+  throw TheoryError(fmt::format("--effects: no law of restitution is called {}", law));
+}
+
+// The gas of the direct simulation, and whether anything but constant e was asked for.
+void add_effects(const std::string& text, TheoryPoint& at) {
+  const json effects = json::parse(text, nullptr, false);
+  if (!effects.is_object())
+    throw TheoryError(
+        "--effects: expected a JSON object as in a grid, e.g. "
+        "'{\"restitution\": {\"law\": \"viscoelastic\", \"A\": 0.05}}'");
+  for (const auto& [name, effect] : effects.items()) {
+    if (name == "restitution") {
+      at.gas.law = law_of(effect, at.e);
+      at.other_law = at.other_law || effect.value("law", "constant") != "constant";
+    } else if (name == "thermostat") {
+      at.gas.heating = parameter(effect, "thermostat", "rate");
+      at.other_law = true;
+    } else if (name == "shuffle") {
+      complain(
+          "campaign: a shuffle changes nothing where velocities are not correlated: the curve "
+          "is that of the gas without\n");
+    } else {
+      throw TheoryError(fmt::format(
+          "--effects: {} is beyond the direct simulation, which knows restitution, thermostat and "
+          "shuffle",
+          name));
+    }
+  }
+}
+
+// The values of the curve's variable.
+std::vector<double> variable_of(const TheoryCurve& curve, const TheoryOptions& options) {
+  const auto usual = [](const std::vector<double>& given, std::vector<double> otherwise) {
+    return given.empty() ? otherwise : given;
+  };
+  if (curve.variable == "tau") return usual(options.tau, range(0, 40, 1));
+  if (curve.variable == "r") return usual(options.r, range(1, 20, 0.5));
+  if (curve.variable == "k") return usual(options.k, range(0.02, 1, 0.02));
+  return curve.variable == "e" ? options.e : options.n;
+}
+
+double only(const std::vector<double>& values, const char* option, const TheoryCurve& curve) {
+  if (values.size() == 1) return values.front();
+  throw TheoryError(
+      fmt::format("{} is a curve of {}: give one --{}", curve.name, curve.variable, option));
+}
+
+void require(bool holds, const std::string& otherwise) {
+  if (!holds) throw TheoryError(otherwise);
+}
+
+TheoryPoint point_of(const TheoryCurve& curve, const TheoryOptions& options) {
+  TheoryPoint at;
+  at.d = options.d;
+  at.b = options.b;
+  for (const double e : options.e)
+    require(e >= 0 && e <= 1, fmt::format("--e {}: a restitution coefficient is 0 ... 1", e));
+  for (const double n : options.n)
+    require(n > 0 && n < (options.d == 2 ? 1.15 : 1.41),
+            fmt::format("--n {}: spheres cannot be packed so (below 1.41, disks 1.15)", n));
+  if (curve.variable != "e") at.e = only(options.e, "e", curve);
+  if (curve.variable != "n") at.n = only(options.n, "n", curve);
+  if (curve.variable == "r" && !options.tau.empty()) at.tau = only(options.tau, "tau", curve);
+  at.gas = {.law = analysis::ConstantRestitution{at.e}, .d = at.d, .n = at.n};
+  at.size = {
+      .particles = options.particles, .realizations = options.realizations, .seed = options.seed};
+  add_effects(options.effects, at);
+  return at;
+}
+
+std::string cell(double value, RowFormat format) {
+  if (format == RowFormat::csv) return csv_field(value);
+  if (!std::isfinite(value)) return format == RowFormat::json ? "null" : no_value;
+  return format == RowFormat::json ? fmt::format("{:.17g}", value) : fmt::format("{:.6g}", value);
+}
+
+void print(const TheoryTable& table, RowFormat format) {
+  if (format == RowFormat::json) {
+    std::string text = "[";
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      text += row > 0 ? ",\n  {" : "\n  {";
+      for (std::size_t c = 0; c < table.columns.size(); ++c)
+        text += fmt::format("{}\"{}\": {}", c > 0 ? ", " : "", table.columns[c],
+                            cell(table.rows[row][c], format));
+      text += '}';
+    }
+    say("{}\n]\n", text);
+    return;
+  }
+  std::vector<TextTable::Column> columns;
+  for (const std::string& name : table.columns) columns.push_back({name, Align::right});
+  TextTable aligned(columns);
+  std::string lines = format == RowFormat::csv ? csv_line(table.columns) : "";
+  for (const auto& row : table.rows) {
+    std::vector<std::string> cells;
+    for (const double value : row) cells.push_back(cell(value, format));
+    if (format == RowFormat::csv)
+      lines += csv_line(cells);
+    else
+      aligned.add(std::move(cells));
+  }
+  say("{}", format == RowFormat::csv ? lines : aligned.text());
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> values_from_text(std::string_view text) {
+  constexpr double most = 1e6;
+  const auto next = [&](char separator) -> std::optional<double> {
+    double value = 0;
+    const std::size_t length = std::min(text.find(separator), text.size());
+    const char* end = text.data() + length;
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+    text.remove_prefix(std::min(length + 1, text.size()));
+    return value;
+  };
+  if (text.find(':') != std::string_view::npos) {
+    const auto from = next(':'), to = next(':'), step = next(':');
+    if (!from || !to || !step || !text.empty()) return std::nullopt;
+    if (!(*step > 0) || !(*to >= *from) || (*to - *from) / *step > most) return std::nullopt;
+    return range(*from, *to, *step);
+  }
+  if (text.empty() || text.back() == ',') return std::nullopt;
+  std::vector<double> values;
+  while (!text.empty()) {
+    const auto value = next(',');
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
+}
+
+int theory(const TheoryOptions& options) {
+  if (options.list) {
+    print_list();
+    return exit_complete;
+  }
+  const TheoryCurve* curve = theory_curve(options.curve);
+  require(curve != nullptr,
+          options.curve.empty()
+              ? "which curve? `campaign theory --list` names them"
+              : fmt::format("no theory curve is called {}; `campaign theory --list` names them",
+                            options.curve));
+  const TheoryPoint at = point_of(*curve, options);
+  require(!at.other_law || curve->variable == "tau",
+          fmt::format("{} is not known with other effects", curve->name));
+  try {
+    print(curve->compute(at, variable_of(*curve, options)), options.format);
+  } catch (const std::invalid_argument& error) {
+    throw TheoryError(error.what());
+  } catch (const std::domain_error& error) {
+    throw TheoryError(error.what());
+  }
+  return exit_complete;
+}
+
+}  // namespace haff::campaign
