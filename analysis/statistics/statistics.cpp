@@ -26,6 +26,31 @@ std::vector<double> halved(std::span<const double> values) {
   return pairs;
 }
 
+// Variance of the mean of `count` neighbours over that of one value, in a series whose correlations
+// fall as rho^lag.
+double variance_of_mean(double rho, double count) {
+  const double rest = 1 - rho;
+  return ((1 + rho) / rest - 2 * rho * (1 - std::pow(rho, count)) / (count * rest * rest)) / count;
+}
+
+// The rho with which means of `length` neighbours scatter `ratio` times as much as single values
+// [variances], both about the mean of the same `count` values.
+double correlation_of(double ratio, double length, double count) {
+  const auto expected = [&](double rho) {
+    const double known = variance_of_mean(rho, count);
+    return (variance_of_mean(rho, length) - known) / (1 - known);
+  };
+  // Correlated over an eighth of the series: with more its own length says nothing.
+  double low = 0, high = std::max(0.0, 1 - 8 / count);
+  if (expected(low) >= ratio) return low;
+  if (expected(high) <= ratio) return high;
+  while (high - low > 1e-12) {
+    const double middle = 0.5 * (low + high);
+    (expected(middle) < ratio ? low : high) = middle;
+  }
+  return low;
+}
+
 }  // namespace
 
 Estimate estimate(std::span<const double> values) {
@@ -58,6 +83,14 @@ BlockEstimate block_estimate(std::span<const double> series) {
   }
   best.estimate.mean = naive.mean;
   if (naive.standard_error > 0) {
+    const double size = static_cast<double>(series.size());
+    const auto length = static_cast<double>(best.block_length);
+    const auto scatter = [](const Estimate& of) {  // variance of one value
+      return of.standard_error * of.standard_error * static_cast<double>(of.count);
+    };
+    const double rho = correlation_of(scatter(best.estimate) / scatter(naive), length, size);
+    const double known = variance_of_mean(rho, size);
+    if (rho > 0) best.estimate.standard_error = std::sqrt(scatter(naive) / (1 - known) * known);
     best.correlation_time = 0.5 * std::pow(best.estimate.standard_error / naive.standard_error, 2);
   }
   return best;

@@ -90,7 +90,7 @@ TEST_CASE("direct simulation: a heated gas loses what it is given") {
   const double t = rest.temperature.mean;
   const double loss = 2 * gamma0(e) * rest.gamma_ratio.mean * rest.rate_ratio.mean *
                       transport(n, t).collision_rate * 1.5 * t;
-  CHECK(loss == doctest::Approx(rate).epsilon(0.003));
+  CHECK(std::abs(loss / rate - 1) < 0.006);  // eight realizations of 10^4
   // Of first order in a_2, as the theory is: its a_2 is good to 5 %.
   check_within(rest.laguerre[2], heated_a2(e), 0.05 * std::abs(heated_a2(e)));
 }
@@ -119,7 +119,8 @@ TEST_CASE("direct simulation: the same seed gives the same bits, another stream 
   CHECK(one[1].temperature == again[1].temperature);
   CHECK(one[0].laguerre != other[0].laguerre);
   // exp(-2 gamma_0 400) = 1e-21 of T: scaled on the way, and still finite.
-  CHECK(one[1].temperature == doctest::Approx(haff_temperature(400, 0.8)).epsilon(0.9));
+  const double log_ratio = std::log(one[1].temperature / haff_temperature(400, 0.8));
+  CHECK(std::abs(log_ratio) < 0.1 * 48);  // 500 particles; a_2 takes 0.4 % of 48
 }
 
 TEST_CASE("direct simulation: bad input is refused") {

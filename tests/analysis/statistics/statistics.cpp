@@ -77,6 +77,22 @@ TEST_CASE("statistics: intervals of correlated series hold their mean as often a
   CHECK(covered / 400.0 < 0.98);
 }
 
+TEST_CASE("statistics: the error of a short, correlated series is not too small by a factor") {
+  // 61 samples that remember for 5.8, as the temperature of a heated gas does. Without what blocks
+  // know of each other the root mean square of the error was 0.52 of the true one. 400 series know
+  // it to 5 %; a tenth is left by the series whose memory exceeds an eighth of their length.
+  constexpr double rho = 0.84;
+  constexpr int series = 400;
+  double mean_square = 0, error_square = 0;
+  for (std::uint64_t seed = 1; seed <= series; ++seed) {
+    const Estimate mean = block_estimate(autoregressive(rho, 61, seed)).estimate;
+    mean_square += mean.mean * mean.mean / series;
+    error_square += mean.standard_error * mean.standard_error / series;
+  }
+  CHECK(std::sqrt(error_square / mean_square) > 0.8);
+  CHECK(std::sqrt(error_square / mean_square) < 1.2);
+}
+
 TEST_CASE("statistics: a constant series has no error, a short one is refused") {
   CHECK(block_estimate(std::vector<double>(100, 3.0)).estimate.standard_error == 0);
   CHECK_THROWS_AS(block_estimate(std::vector{1.0}), std::invalid_argument);
