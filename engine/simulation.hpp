@@ -21,6 +21,10 @@
 
 namespace haff::engine {
 
+// Which bits the engine computes. Any change of a trajectory raises it, which checkpoints and jobs
+// carry: tests/engine/golden_states.cpp holds the hashes of the present one.
+inline constexpr int physics_version = 1;
+
 using Parameters = std::map<std::string, double>;
 
 // How the restitution coefficient depends on the collision: a model in
