@@ -31,9 +31,9 @@ const std::set<std::string> of_this_store{"job_id",        "equilibration_id", "
                                           "owner_started", "renewed"};
 
 // Columns of jobs that say how far the job is, and where it was worked on.
-constexpr std::array progress_columns{"tau",      "collisions",   "attempts",
-                                      "error",    "starts_over",  "started",
-                                      "finished", "code_version", "host"};
+constexpr std::array progress_columns{"tau",         "collisions",     "attempts", "error",
+                                      "starts_over", "started",        "finished", "code_version",
+                                      "host",        "physics_version"};
 
 // Two C libraries differ in the last digits of a logarithm, two FFT libraries in those of a
 // transform. Everything else is decided by the trajectory, and equal in every bit.

@@ -299,6 +299,13 @@ void replace(SQLite::Database& sqlite, const Lease& lease, const Invariants& inv
   statement.exec();
 }
 
+void note_physics(SQLite::Database& sqlite, const Lease& lease, int physics_version) {
+  SQLite::Statement statement(sqlite, "UPDATE jobs SET physics_version = ? WHERE job_id = ?");
+  statement.bind(1, physics_version);
+  statement.bind(2, lease.job_id);
+  statement.exec();
+}
+
 // A commit, with its checksum already computed: nobody should wait for the write lock meanwhile.
 class Entry {
  public:
@@ -313,6 +320,7 @@ class Entry {
     insert(database.sqlite(), lease_, commit_.fields);
     if (commit_.checkpoint) replace(database.sqlite(), lease_, *commit_.checkpoint, sum_);
     if (commit_.invariants) replace(database.sqlite(), lease_, *commit_.invariants);
+    if (commit_.physics_version) note_physics(database.sqlite(), lease_, *commit_.physics_version);
     report(database.sqlite(), lease_, commit_.progress);
   }
 
@@ -532,7 +540,7 @@ bool Store::restart(std::int64_t job_id) {
     };
     if (change(R"(
           UPDATE jobs SET status = 'pending', attempts = 0, error = NULL, tau = 0, collisions = 0,
-                          finished = NULL, starts_over = 1
+                          finished = NULL, starts_over = 1, physics_version = NULL
           WHERE job_id = ? AND status NOT IN ('running', 'lent'))") == 0)
       return false;
     change("DELETE FROM invariants WHERE job_id = ?");

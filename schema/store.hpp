@@ -185,6 +185,7 @@ struct Commit {
   std::vector<Field> fields = {};
   std::optional<Checkpoint> checkpoint = {};  // replaces the job's older one
   std::optional<Invariants> invariants = {};  // the same
+  std::optional<int> physics_version = {};    // of the engine that computed all this
   Progress progress = {};
 };
 

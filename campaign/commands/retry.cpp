@@ -16,12 +16,18 @@
 namespace haff::campaign {
 namespace {
 
-// Why the job cannot go on from its state, nor others start from it; or nothing.
+// Why the job cannot go on from its state, nor others start from it; or nothing. What is done and
+// sound stays, whichever physics version computed it: but for an equilibration, from which others
+// start.
 std::optional<std::string> damage_of(const schema::Reader& store, const schema::JobRow& row) {
   const bool must_have_state =
       row.job.kind == schema::Kind::equilibration && row.status == schema::Status::done;
   try {
     const auto state = stored_state(store, row.job_id, row.job);
+    const bool is_over =
+        row.status == schema::Status::done || row.status == schema::Status::collapsed;
+    if (state && (must_have_state || !is_over))
+      if (auto foreign = foreign_physics(store.checkpoint(row.job_id).value())) return foreign;
     if (!state && must_have_state) return "its state is gone";
     return std::nullopt;
   } catch (const schema::Damage& damage) {

@@ -19,6 +19,7 @@
 #include "campaign/base/printable.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/cluster/shards.hpp"
+#include "campaign/results/mixed_physics.hpp"
 #include "campaign/results/series.hpp"
 #include "campaign/run/abandoned.hpp"
 
@@ -40,6 +41,7 @@ struct Picture {
   std::vector<TargetProgress> targets;
   std::optional<schema::Invariants> worst;  // of all runs; nothing before the first
   std::vector<ShardStatus> shards;
+  std::vector<std::string> mixed_physics;   // a sentence for each series concerned
 };
 
 // The largest overlap, mismatch and momentum of all runs, and all counts together.
@@ -67,6 +69,7 @@ Picture look(const Reader& store) {
           progress_of(store, store.targets()),
           worst_invariants(store),
           shard_states(store)};
+          mixed_physics(store)};
 }
 
 double fraction_done(const schema::Summary& summary) {
@@ -231,6 +234,7 @@ void print_findings(const Picture& picture) {
   if (const std::string text = predictions_text(picture.targets); !text.empty()) say("{}\n", text);
   const std::string failures = failures_text(picture);
   if (!failures.empty()) say("{}\n", failures);
+  for (const std::string& sentence : picture.mixed_physics) say("Note: {}\n", sentence);
   say("{}", next_text(picture));
 }
 

@@ -43,12 +43,12 @@ Attempt::Attempt(schema::Store& store, const schema::Claim& claim, const Reporte
 
 std::optional<engine::State> Attempt::stored_state() const {
   if (claim_.starts_over) return std::nullopt;
-  return newest_state(store_, claim_.lease.job_id, job());
+  return state_to_go_on_from(store_, claim_.lease.job_id, job());
 }
 
 engine::State Attempt::state_of_equilibration() const {
   const std::int64_t id = claim_.equilibration_id.value();
-  auto state = newest_state(store_, id, store_.job(id).job);
+  auto state = state_to_go_on_from(store_, id, store_.job(id).job);
   if (!state)
     throw std::runtime_error(
         fmt::format("the equilibration it starts from, job {}, is done but "
@@ -175,6 +175,7 @@ schema::Commit Attempt::pending_commit(double tau) const {
                                            .unresolved_collisions = seen.unresolved_collisions,
                                            .energy_mismatch = seen.energy_mismatch,
                                            .momentum_removed = seen.momentum_removed},
+          .physics_version = engine::physics_version,
           .progress = progress(tau)};
 }
 

@@ -17,6 +17,7 @@
 #include "campaign/paper/page.hpp"
 #include "campaign/plot/picture.hpp"
 #include "campaign/plot/table.hpp"
+#include "campaign/results/mixed_physics.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -142,6 +143,8 @@ Attempt attempt(const Figure& figure, const Averages& averages) {
 int draw_figures(const schema::Reader& store, const FigureRequest& request, std::ostream& report) {
   const auto asked = asked_for(request.only);
   const Averages averages = read_averages(store);
+  for (const std::string& sentence : mixed_physics(store))
+    fmt::print(report, "Note: {}\n", sentence);
   make_folder(request.out);
   OutputFiles files;
   std::vector<FigureEntry> entries;

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "engine/simulation.hpp"
+
 namespace haff::campaign {
 namespace {
 
@@ -15,8 +17,10 @@ static_assert(std::endian::native == std::endian::little,
               "checkpoints are little-endian: swap bytes here for this machine");
 
 constexpr std::string_view magic = "HAFFGAS\n";
-// Version 1 had no invariants but momentum_removed, and no memory; version 2 knew only d = 3.
-constexpr std::uint32_t version = 3;
+// Version 1 had no invariants but momentum_removed, and no memory; version 2 knew only d = 3;
+// version 3 did not say which physics_version it was computed with: the first.
+constexpr std::uint32_t version = 4;
+constexpr std::string_view physics = "physics_version";
 
 // What laws of restitution remember is stored under these names, followed by their own.
 constexpr std::string_view memory_prefix = "memory.";
@@ -203,6 +207,7 @@ std::vector<std::byte> encode(const engine::State& state) {
   };
   for_each_field(state, count);
   for (const auto& [name, values] : state.memory) count(name, values);
+  count(physics, engine::physics_version);
   writer.bytes.reserve(size);
   writer.put(magic);
   writer.put(version);
@@ -211,11 +216,19 @@ std::vector<std::byte> encode(const engine::State& state) {
                  [&](std::string_view name, const auto& field) { writer.put_field(name, field); });
   for (const auto& [name, values] : state.memory)
     writer.put_field(std::string(memory_prefix) + name, values);
+  writer.put_field(physics, engine::physics_version);
   writer.put(checkpoint_checksum(writer.bytes));
   return std::move(writer.bytes);
 }
 
-engine::State decode(std::span<const std::byte> bytes) {
+namespace {
+
+struct Contents {
+  std::uint32_t version = 0;
+  std::vector<Stored> table;
+};
+
+Contents contents_of(std::span<const std::byte> bytes) {
   constexpr std::size_t sum_size = sizeof(std::uint64_t);
   if (bytes.size() < magic.size() + sum_size) throw DamagedCheckpoint("checkpoint is cut short");
   const auto content = bytes.first(bytes.size() - sum_size);
@@ -230,8 +243,24 @@ engine::State decode(std::span<const std::byte> bytes) {
     throw NewerCheckpoint(fmt::format(
         "checkpoint is of format {}, this program knows those up to {}", found, version));
   if (found < 1) throw DamagedCheckpoint("checkpoint is of format 0, which never was");
-  const auto table = read_table(reader, reader.get<std::uint32_t>());
+  auto table = read_table(reader, reader.get<std::uint32_t>());
   if (!reader.at_end()) throw DamagedCheckpoint("checkpoint is longer than its fields");
+  return {found, std::move(table)};
+}
+
+}  // namespace
+
+int physics_version_of(std::span<const std::byte> bytes) {
+  const auto [found, table] = contents_of(bytes);
+  int computed_with = 1;
+  if (found >= 4) restore(table, physics, computed_with);
+  return computed_with;
+}
+
+engine::State decode(std::span<const std::byte> bytes) {
+  const auto contents = contents_of(bytes);
+  const std::uint32_t found = contents.version;
+  const std::vector<Stored>& table = contents.table;
 
   engine::State state;
   for_each_field(state, [&](std::string_view name, auto& field) {

@@ -37,4 +37,7 @@ std::vector<std::byte> encode(const engine::State& state);
 // program's did.
 engine::State decode(std::span<const std::byte> bytes);
 
+// The engine::physics_version that computed this state. Throws as decode() does.
+int physics_version_of(std::span<const std::byte> bytes);
+
 }  // namespace haff::campaign

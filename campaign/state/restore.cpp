@@ -69,4 +69,24 @@ std::optional<engine::State> newest_state(const schema::Reader& store, std::int6
   }
 }
 
+std::optional<std::string> foreign_physics(const schema::Checkpoint& checkpoint) {
+  const int found = physics_version_of(checkpoint.state);
+  if (found == engine::physics_version) return std::nullopt;
+  return fmt::format(
+      "it was computed with physics version {}, and this program computes version {}", found,
+      engine::physics_version);
+}
+
+std::optional<engine::State> state_to_go_on_from(const schema::Reader& store, std::int64_t job_id,
+                                                 const schema::Job& job) {
+  auto state = newest_state(store, job_id, job);
+  if (state)
+    if (const auto why = foreign_physics(store.checkpoint(job_id).value()))
+      throw DamagedCheckpoint(
+          fmt::format("the checkpoint of job {} ({}) was not used: {}; go on with the program that "
+                      "began it, or let `campaign retry` compute that job again from its start",
+                      job_id, describe(job), *why));
+  return state;
+}
+
 }  // namespace haff::campaign

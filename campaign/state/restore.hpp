@@ -1,6 +1,9 @@
 // From a checkpoint in the store to a state the engine may go on from.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "campaign/state/checkpoint.hpp"
 #include "schema/store.hpp"
 
@@ -19,5 +22,14 @@ std::optional<engine::State> stored_state(const schema::Reader& store, std::int6
 // The same, with a message that names the job and what to do.
 std::optional<engine::State> newest_state(const schema::Reader& store, std::int64_t job_id,
                                           const schema::Job& job);
+
+// Why no job may go on from this checkpoint, or start from it: the engine that computed it gives
+// other bits than this one (engine::physics_version). Nothing if it may.
+std::optional<std::string> foreign_physics(const schema::Checkpoint& checkpoint);
+
+// The newest state, as above, for a job that goes on from it. Throws DamagedCheckpoint also if its
+// physics version is another one.
+std::optional<engine::State> state_to_go_on_from(const schema::Reader& store, std::int64_t job_id,
+                                                 const schema::Job& job);
 
 }  // namespace haff::campaign

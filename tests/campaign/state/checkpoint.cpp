@@ -133,3 +133,22 @@ TEST_CASE("checkpoint: a newer program's is no damage") {
   std::memcpy(bytes.data() + bytes.size() - 8, &sum, sizeof sum);
   CHECK_THROWS_AS(decode(bytes), NewerCheckpoint);
 }
+
+TEST_CASE("checkpoint: carries the physics version, and no job goes on under another") {
+  const schema::Job job{.e = 0.8, .n = 0.4, .particles = 100, .seed = 1};
+  schema::Checkpoint stored{.state = encode(engine::initial_state(job.n, job.particles, 1))};
+  CHECK(physics_version_of(stored.state) == engine::physics_version);
+  CHECK(!foreign_physics(stored));
+
+  // As another engine would have written it: its number is the last field.
+  const int other = engine::physics_version + 1;
+  const std::size_t end = stored.state.size() - sizeof(std::uint64_t);
+  std::memcpy(stored.state.data() + end - sizeof other, &other, sizeof other);
+  const std::uint64_t sum = checkpoint_checksum(std::span(stored.state).first(end));
+  std::memcpy(stored.state.data() + end, &sum, sizeof sum);
+  CHECK(physics_version_of(stored.state) == other);
+  CHECK(restore(stored, job).particles() == 100);  // to be looked at, it is as good as any
+  const auto why = foreign_physics(stored);
+  REQUIRE(why);
+  CHECK(why->find("physics version 2, and this program computes version 1") != std::string::npos);
+}
