@@ -10,6 +10,7 @@
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/machine.hpp"
 #include "campaign/base/version.hpp"
+#include "campaign/commands/documents.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -421,6 +422,15 @@ CLI::App* add_worker(CLI::App& app, WorkerCommand& options) {
   return command;
 }
 
+CLI::App* add_document(CLI::App& app, std::string& kind) {
+  auto* command = app.add_subcommand("document", "")->group("");  // for `cmake --install`
+  command->add_option("KIND", kind)
+      ->required()
+      ->check(CLI::IsMember(
+          std::vector<std::string>(std::begin(document_kinds), std::end(document_kinds))));
+  return command;
+}
+
 std::string names(const CLI::App& app) {
   std::string list;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -489,6 +499,8 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   const CLI::App* task_command = add_task(app, task);
   const CLI::App* theory_command = add_theory(app, theory);
   const CLI::App* worker_command = add_worker(app, worker);
+  std::string kind;
+  const CLI::App* document_command = add_document(app, kind);
 
   try {
     app.parse(argc, argv);
@@ -497,6 +509,11 @@ Parsed parse_command_line(int argc, const char* const* argv) {
                                CLI::ExitCodes::RequiredError);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_complete : exit_bad_input;
+  }
+
+  if (document_command->parsed()) {
+    fmt::print("{}", document(app, kind));
+    return exit_complete;
   }
 
   line.store = plan.store = run.store = split.store = merge.store = recall.store =

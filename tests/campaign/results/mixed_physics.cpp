@@ -36,6 +36,6 @@ TEST_CASE("realizations of one physics version are averaged in silence") {
 TEST_CASE("realizations of two physics versions are named") {
   const auto sentences = mixed_physics(two_realizations(1, 2));
   REQUIRE(sentences.size() == 1);
-  CHECK(sentences[0] == doctest::Contains("the 2 realizations of the series of job"));
-  CHECK(sentences[0] == doctest::Contains("physics versions 1,2"));
+  CHECK(sentences[0].find("the 2 realizations of the series of job") != std::string::npos);
+  CHECK(sentences[0].find("physics versions 1,2") != std::string::npos);
 }

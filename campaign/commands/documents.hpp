@@ -1,0 +1,19 @@
+// The man page and the completions of shells, made from the description of the command line that
+// also makes --help, so that they cannot say anything else. The hidden command `campaign document`
+// prints them; `cmake --install` puts them where man and the shells look.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace haff::campaign {
+
+inline constexpr const char* document_kinds[] = {"man", "bash", "zsh", "fish"};
+
+// One of document_kinds. Throws std::invalid_argument for another.
+std::string document(const CLI::App& app, const std::string& kind);
+
+}  // namespace haff::campaign

@@ -1,0 +1,74 @@
+// The man page and the completions, as the program describes its own command line.
+#include <doctest/doctest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/program.hpp"
+
+using namespace haff::tests;
+
+namespace {
+
+// The first words of the lines of --help that follow "Subcommands:".
+std::vector<std::string> commands(const Folder& folder) {
+  std::istringstream help(campaign(folder, {"--help"}).out);
+  std::vector<std::string> names;
+  bool listed = false;
+  for (std::string line; std::getline(help, line);) {
+    if (listed && line.empty()) break;
+    if (listed) names.push_back(line.substr(2, line.find(' ', 2) - 2));
+    listed = listed || line == "Subcommands:";
+  }
+  return names;
+}
+
+std::string completed(const Folder& folder, const std::string& words) {
+  folder.write("complete",
+               "compopt() { :; }  # works only while a user completes\n"
+               ". ./completion\n"
+               "COMP_WORDS=(campaign " +
+                   words +
+                   ")\n"
+                   "COMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n"
+                   "_campaign\n"
+                   "echo ${COMPREPLY[@]}\n");
+  return shell(folder, "$campaign document bash > completion && bash complete").out;
+}
+
+bool contains(const std::string& text, const std::string& what) {
+  return text.find(what) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("documents: each names every command, and none that is hidden") {
+  const Folder folder;
+  const auto names = commands(folder);
+  REQUIRE(names.size() > 10);
+  for (const char* kind : {"man", "bash", "zsh", "fish"}) {
+    CAPTURE(kind);
+    const Outcome outcome = campaign(folder, {"document", kind});
+    CHECK(outcome.exit_code == 0);
+    for (const std::string& name : names) {
+      CAPTURE(name);
+      CHECK(contains(outcome.out, name));
+    }
+    CHECK(!contains(outcome.out, "DESCRIPTOR"));
+    CHECK(contains(outcome.out, "max"));
+  }
+  CHECK(campaign(folder, {"document", "html"}).exit_code == 2);
+}
+
+TEST_CASE("documents: bash completes commands, options, their values and files") {
+  const Folder folder;
+  folder.write("grid.json", "{}");
+  CHECK(completed(folder, "ret") == "retry\n");
+  CHECK(completed(folder, "run --bud") == "--budget\n");
+  CHECK(completed(folder, "run --st") == "--store\n");
+  CHECK(completed(folder, "query --format j") == "json\n");
+  CHECK(completed(folder, "plan gr") == "grid.json\n");
+  CHECK(completed(folder, "--store grid.j") == "grid.json\n");
+  CHECK(completed(folder, "run --max-time ''") == "\n");  // a time cannot be guessed
+}
