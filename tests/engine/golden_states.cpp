@@ -235,3 +235,16 @@ TEST_CASE("the bits of every kind of trajectory are those of this physics versio
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
+
+// When a collapse counts as one is decided by what loop/watchdog.hpp calls slow, quick and too
+// many.
+TEST_CASE("a collapse is noticed after the same collision") {
+  Simulation gas({.restitution = 0.1}, initial_state(0.4, 500, 1));
+  try {
+    gas.run_to(collisions_at(100, 500));
+    FAIL("no collapse");
+  } catch (const Collapse& collapse) {
+    CHECK(collapse.collisions == 0);
+    CHECK(collapse.particles == std::vector<std::uint32_t>{});
+  }
+}

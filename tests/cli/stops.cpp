@@ -1,0 +1,60 @@
+// What a stop keeps, and what a kill costs.
+#include <doctest/doctest.h>
+
+#include <csignal>
+
+#include "cli/program.hpp"
+
+using namespace haff::tests;
+using namespace std::chrono_literals;
+
+namespace {
+
+void plan(const Folder& folder, const std::string& grid) {
+  folder.write("grid.json", grid);
+  REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
+}
+
+}  // namespace
+
+TEST_CASE("stops: one near a synchronization keeps what was computed, without a checkpoint due") {
+  const Folder folder;
+  // A synchronization is a few thousand collisions away at any time: far less than a second.
+  plan(folder, R"({"e": 0.9, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 100000, "sample_every": 100,
+                   "checkpoint_every": 100000})");
+  Program run(folder, {"run", "--workers", "1"});
+  while (number(folder,
+                "SELECT count(*) FROM jobs WHERE kind = 'cooling' AND status = 'running'") == 0)
+    sleep_for(5ms);
+  sleep_for(500ms);
+  run.signal(SIGTERM);
+  CHECK(run.wait().exit_code == 128 + SIGTERM);
+  CHECK(number(folder,
+               "SELECT count(*) FROM checkpoints JOIN jobs USING (job_id) "
+               "WHERE kind = 'cooling'") == 1);
+  CHECK(number(folder, "SELECT max(tau) FROM jobs WHERE kind = 'cooling'") > 0);
+}
+
+TEST_CASE("stops: ten kills in a row without progress are excused, three more fail the job") {
+  const Folder folder;
+  // The first checkpoint, after three million collisions, is never reached between two kills.
+  plan(folder, R"({"e": 0.9, "n": 0.4, "N": 600000, "seeds": 1, "tau_max": 10})");
+  Program run(folder, {"run", "--workers", "1"});
+  double owner = 0;
+  const auto wait_for_another_owner = [&] {
+    for (const double last = owner; run.runs() && (owner == last || owner == 0); sleep_for(2ms))
+      owner =
+          number(folder, "SELECT coalesce(max(owner_pid), 0) FROM jobs WHERE status = 'running'");
+  };
+  const auto attempts = [&] { return number(folder, "SELECT sum(attempts) FROM jobs"); };
+  for (int kills = 0; kills < 13; ++kills) {
+    CAPTURE(kills);
+    wait_for_another_owner();
+    REQUIRE(run.runs());
+    CHECK(attempts() == (kills > 10 ? kills - 10 : 0));
+    kill(static_cast<pid_t>(owner), SIGKILL);
+  }
+  run.wait();
+  CHECK(attempts() == 3);
+  CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'failed'") == 1);
+}
