@@ -41,7 +41,7 @@ struct Picture {
   std::vector<TargetProgress> targets;
   std::optional<schema::Invariants> worst;  // of all runs; nothing before the first
   std::vector<ShardStatus> shards;
-  std::vector<std::string> mixed_physics;   // a sentence for each series concerned
+  std::vector<std::string> mixed_physics;  // a sentence for each series concerned
 };
 
 // The largest overlap, mismatch and momentum of all runs, and all counts together.
@@ -68,7 +68,7 @@ Picture look(const Reader& store) {
           series_of(store),
           progress_of(store, store.targets()),
           worst_invariants(store),
-          shard_states(store)};
+          shard_states(store),
           mixed_physics(store)};
 }
 
