@@ -10,6 +10,7 @@ UPDATE jobs SET physics_version = 1 WHERE collisions > 0;
 CREATE VIEW mixed_physics AS
 SELECT series, group_concat(DISTINCT physics_version) AS physics_versions,
        count(*) AS realizations, min(job_id) AS job_id
-FROM realizations JOIN jobs USING (job_id)
+FROM jobs
+WHERE kind = 'cooling' AND status = 'done'
 GROUP BY series
 HAVING count(DISTINCT physics_version) > 1;
