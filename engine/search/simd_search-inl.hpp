@@ -209,6 +209,7 @@ class SimdSearch {
   }
 
   struct Records {
+    HWY_INLINE Records() {}  // written out, it is compiled for the SIMD target of its members
     V x, y, z, t, vx, vy, vz;
     V names;  // the bits of id and changes
   };
