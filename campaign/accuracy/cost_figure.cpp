@@ -199,6 +199,26 @@ Panel panel_of(const Assessment& assessment, const Members& members, const Inks&
   return panel;
 }
 
+// What a gas is besides its n and e: gases that differ in it alone are different pictures.
+std::string other_properties(const schema::Job& job) {
+  std::string text = job.d == 2 ? "disks" : "";
+  if (job.effects != schema::Job{}.effects) text += (text.empty() ? "" : ", ") + job.effects;
+  return text;
+}
+
+// As part of a file's name: "-shuffle-every-1.0".
+std::string as_name(const std::string& text) {
+  std::string name;
+  bool in_word = false;
+  for (const char c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '.' || c == '_';
+    if (plain) name += in_word ? std::string(1, c) : std::string("-") + c;
+    in_word = plain;
+  }
+  return name;
+}
+
 }  // namespace
 
 OutputFiles draw_cost(const Assessment& assessment, const std::filesystem::path& folder) {
@@ -232,13 +252,15 @@ OutputFiles draw_cost(const Assessment& assessment, const std::filesystem::path&
     for (const Members& members : gas.quantities)
       plot.panels.push_back(panel_of(assessment, members, inks, grid, plot.panels.size()));
     const std::string e = gas.job.e ? restitution_text(*gas.job.e) : "none";
+    const std::string others = other_properties(gas.job);
     plot.caption = fmt::format(
-        "n = {}, e = {}. Symbols: standard deviation of the means of disjoint groups of "
+        "n = {}, e = {}{}. Symbols: standard deviation of the means of disjoint groups of "
         "realizations, with its error. Lines: slope −1/2, as of independent realizations. Dashed: "
         "shift of finite size, dotted: of the cause named, where it is more than two of its "
         "errors.",
-        density_text(gas.job.n), e);
-    const std::string stem = fmt::format("cost-e{}-n{}", e, density_text(gas.job.n));
+        density_text(gas.job.n), e, others.empty() ? "" : ", " + others);
+    const std::string stem =
+        fmt::format("cost-e{}-n{}{}", e, density_text(gas.job.n), as_name(others));
     draw_both(plot, folder / stem, pictures);
   }
   return pictures;

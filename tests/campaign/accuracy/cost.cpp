@@ -388,3 +388,20 @@ TEST_CASE("cost: targets are a quantity and an error") {
     CHECK_FALSE(target_from_text(text));
   }
 }
+
+TEST_CASE("cost: gases that differ in their effects alone are pictures of their own") {
+  const TemporaryFolder folder;
+  schema::Store store = schema::Store::create(":memory:");
+  for (const char* effects : {"{}", R"({"shuffle":{"every":1.0}})"})
+    add_finished(store,
+                 {.e = 0.9,
+                  .n = 0.4,
+                  .particles = 1000,
+                  .effects = effects,
+                  .observables = {"laguerre", "temperature"}},
+                 4, 20);
+  std::ostringstream report;
+  CHECK(cost(store, {.out = folder.path(), .targets = {}}, report) == 0);
+  CHECK(std::filesystem::exists(folder / "cost-e0.90-n0.40.png"));
+  CHECK(std::filesystem::exists(folder / "cost-e0.90-n0.40-shuffle-every-1.0.png"));
+}
