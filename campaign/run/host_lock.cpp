@@ -50,7 +50,7 @@ std::optional<Holder> holder_of(const fs::path& path) {
 }  // namespace
 
 HostLock::HostLock(const fs::path& store, bool is_run)
-    : HostLock(store, is_run, schema::is_on_network(store), this_process(), patience) {}
+    : HostLock(store, is_run, schema::is_on_network(store), this_process(), usual_patience) {}
 
 HostLock::HostLock(const fs::path& store, bool is_run, bool is_on_network, const schema::Owner& me,
                    std::chrono::milliseconds patience)

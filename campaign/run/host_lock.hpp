@@ -17,7 +17,7 @@ namespace haff::campaign {
 class HostLock {
  public:
   // How long to wait for another user: a merge on a node of a cluster takes seconds.
-  static constexpr std::chrono::seconds patience{10};
+  static constexpr std::chrono::seconds usual_patience{10};
 
   // Takes the lock for this process, unless the store is on a local disk. `is_run`: other commands
   // of this host may use the store meanwhile. Throws schema::Locked if another host has it.
