@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "schema/embedded.hpp"
+#include "schema/network.hpp"
 #include "schema/store.hpp"
 #include "schema/views.hpp"
 
@@ -133,8 +134,12 @@ void prepare_to_write(SQLite::Database& sqlite, const std::filesystem::path& pat
   // Somebody else's file must not change, not even its journal.
   if (!empty(sqlite)) must_be_store(sqlite, path);
 
-  const auto journal = write_ahead(sqlite);
-  if (journal != "wal" && path != in_memory)
+  // The write-ahead log needs memory that all users share, which a network file system does not
+  // give to several hosts. Campaign's lock lets one host use the store at a time.
+  const bool on_network = path != in_memory && is_on_network(path);
+  const auto journal = on_network ? sqlite.execAndGet("PRAGMA journal_mode = DELETE").getString()
+                                  : write_ahead(sqlite);
+  if (journal != "wal" && !on_network && path != in_memory)
     throw StoreError(path.string() +
                      ": this file system does not support SQLite's write-ahead log; "
                      "put the store on a local disk");

@@ -19,6 +19,7 @@
 #include "campaign/commands/theory.hpp"
 #include "campaign/commands/verify.hpp"
 #include "campaign/paper/figures.hpp"
+#include "campaign/run/host_lock.hpp"
 #include "campaign/run/worker.hpp"
 #include "schema/error.hpp"
 #include "schema/grid.hpp"
@@ -32,8 +33,14 @@ namespace {
 struct CommandDispatcher {
   const CommandLine& line;
 
-  int operator()(const PlanOptions& options) const { return plan(options); }
-  int operator()(const RunOptions& options) const { return run(options); }
+  int operator()(const PlanOptions& options) const {
+    const HostLock lock(line.store, false);
+    return plan(options);
+  }
+  int operator()(const RunOptions& options) const {
+    const HostLock lock(line.store, true);
+    return run(options);
+  }
   int operator()(const StatusCommand& command) const { return status(line.store, command.json); }
   int operator()(const QueryCommand& command) const {
     return query(line.store, command.sql, command.format);
@@ -50,11 +57,26 @@ struct CommandDispatcher {
     return cost(schema::Reader(line.store), request, report);
   }
   int operator()(const VerifyCommand&) const { return verify(line.store); }
-  int operator()(const RetryCommand&) const { return retry(line.store); }
-  int operator()(const SplitOptions& options) const { return split(options); }
-  int operator()(const MergeOptions& options) const { return merge(options); }
-  int operator()(const RecallOptions& options) const { return recall(options); }
-  int operator()(const SubmitOptions& options) const { return submit(options); }
+  int operator()(const RetryCommand&) const {
+    const HostLock lock(line.store, false);
+    return retry(line.store);
+  }
+  int operator()(const SplitOptions& options) const {
+    const HostLock lock(line.store, false);
+    return split(options);
+  }
+  int operator()(const MergeOptions& options) const {
+    const HostLock lock(line.store, false);
+    return merge(options);
+  }
+  int operator()(const RecallOptions& options) const {
+    const HostLock lock(line.store, false);
+    return recall(options);
+  }
+  int operator()(const SubmitOptions& options) const {
+    const HostLock lock(line.store, false);
+    return submit(options);
+  }
   int operator()(const TaskOptions& options) const { return task(options); }
   int operator()(const TheoryOptions& options) const { return theory(options); }
   int operator()(const WorkerCommand& command) const {
