@@ -1,11 +1,18 @@
 #include "schema/document.hpp"
 
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <set>
 #include <vector>
 
 namespace haff::schema {
 
 namespace {
+
+// Numbers that differ by less come from arithmetic, not from a person: 0.1 + 0.2 is read as 0.3.
+// [relative]
+constexpr double same_number = 1e-12;
 
 // A grid is nested four deep. Far beyond that, code that follows a value into its depth would run
 // out of stack.
@@ -26,7 +33,13 @@ class Scout : public nlohmann::json_sax<Json> {
   bool boolean(bool) override { return value(); }
   bool number_integer(number_integer_t) override { return value(); }
   bool number_unsigned(number_unsigned_t) override { return value(); }
-  bool number_float(number_float_t, const string_t&) override { return value(); }
+  bool number_float(number_float_t number, const string_t& token) override {
+    const std::string digits = token.substr(0, token.find_first_of("eE"));
+    if (number == 0 && digits.find_first_of("123456789") != std::string::npos)
+      throw fault(file_, here(),
+                  token + " is too small; expected 0 or a number that a double holds");
+    return value();
+  }
   bool string(string_t&) override { return value(); }
   bool binary(binary_t&) override { return value(); }
 
@@ -90,6 +103,21 @@ class Scout : public nlohmann::json_sax<Json> {
   std::vector<Level> levels_;
 };
 
+// Leaves out what is said to other programs and to people, and writes each number in one way.
+void tidy(Json& value) {
+  if (value.is_number_float()) value = shortest_decimal(value.get<double>());
+  if (value.is_array())
+    for (Json& item : value) tidy(item);
+  if (!value.is_object()) return;
+  for (auto member = value.begin(); member != value.end();)
+    if (member.key().starts_with('_')) {
+      member = value.erase(member);
+    } else {
+      tidy(*member);
+      ++member;
+    }
+}
+
 }  // namespace
 
 GridError fault(const std::string& file, const Pointer& where, const std::string& what) {
@@ -102,10 +130,28 @@ std::string shown(const Json& value) {
   return text.size() <= longest ? text : text.substr(0, longest) + "...";
 }
 
+double shortest_decimal(double value) {
+  // Whole numbers keep their digits: those of a seed, say.
+  if (!std::isfinite(value) || value == std::trunc(value)) return value;
+  std::array<char, 32> text;
+  constexpr int most_digits = 17;
+  for (int digits = 1; digits < most_digits; ++digits) {
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                   std::chars_format::scientific, digits - 1);
+    double shorter = 0;
+    std::from_chars(text.data(), end.ptr, shorter);
+    if (std::abs(shorter - value) <= same_number * std::abs(value)) return shorter;
+  }
+  return value;
+}
+
 Json read_document(std::string_view text, const std::string& file) {
   Scout scout(file);
   Json::sax_parse(text, &scout);
-  return Json::parse(text);
+  Json document = Json::parse(text);
+  tidy(document);
+  if (document.is_object()) document.erase("$schema");
+  return document;
 }
 
 }  // namespace haff::schema

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -49,10 +50,25 @@ struct Memory {
   double bytes_per_particle = 0;  // of a running job
 };
 
-// Read and check a grid file. Throws GridError.
-Grid read_grid(const std::filesystem::path& path, const Memory& memory);
+// A gas to be prepared: at n = 0.4 and d = 3 its packing is 0.209.
+struct Preparation {
+  int d = 3;
+  double n = 0;
+  std::uint32_t particles = 0;
+  double packing = 0;     // the part of the volume that the particles fill
+  bool is_mixed = false;  // whether particles differ in size
+};
+
+// Why a gas cannot be prepared, e.g. "particles ... ; expected ...", or nothing if it can. Only a
+// user of the engine knows.
+using Refusal = std::function<std::optional<std::string>(const Preparation&)>;
+
+// Reads and checks a grid file. Throws GridError.
+Grid read_grid(const std::filesystem::path& path, const Memory& memory,
+               const Refusal& cannot_start = {});
 
 // The same for a text; `file` is what messages call it.
-Grid parse_grid(std::string_view text, const std::string& file, const Memory& memory);
+Grid parse_grid(std::string_view text, const std::string& file, const Memory& memory,
+                const Refusal& cannot_start = {});
 
 }  // namespace haff::schema

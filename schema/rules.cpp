@@ -176,10 +176,11 @@ std::optional<GridError> wrong_keys(const Json& value, const Json& rule, const s
     if (!one->contains("required")) continue;
     for (const Json& key : (*one)["required"])
       if (!value.contains(key))
-        return fault(file, where,
-                     "has no " + quoted(key) + "; expected " +
-                         (*rules.front())["properties"][key.get<std::string>()]["description"]
-                             .get<std::string>());
+        return fault(
+            file, where,
+            "has no " + quoted(key) + "; expected " +
+                resolved((*rules.front())["properties"][key.get<std::string>()])["description"]
+                    .get<std::string>());
   }
   return std::nullopt;
 }

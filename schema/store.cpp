@@ -477,7 +477,7 @@ Status Store::finish(const Lease& lease, const Commit& commit,
   });
 }
 
-Status Store::fail(const Lease& lease, const std::string& error) {
+Status Store::fail(const Lease& lease, const std::string& error, bool again) {
   return database().transaction([&] {
     must_hold(database(), lease);
     SQLite::Statement statement(database().sqlite(), R"(
@@ -486,7 +486,7 @@ Status Store::fail(const Lease& lease, const std::string& error) {
     statement.bind(":error", printable(error));
     statement.bind(":job_id", lease.job_id);
     statement.executeStep();
-    const bool last = integer(statement, "attempts") >= max_attempts;
+    const bool last = !again || integer(statement, "attempts") >= max_attempts;
     const Status status = last ? Status::failed : Status::pending;
     leave(database().sqlite(), lease, status);
     return status;

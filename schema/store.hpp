@@ -359,7 +359,8 @@ class Store : public Reader {
   void collapse(const Lease& lease, const Commit& commit, const std::string& what);
 
   // An error ended this attempt: pending again, or failed if it was the last. Returns which.
-  Status fail(const Lease& lease, const std::string& error);
+  // `again`: whether another attempt may succeed; if not, the job fails at once.
+  Status fail(const Lease& lease, const std::string& error, bool again = true);
 
   // Give the job back unfinished, at its last checkpoint; costs no attempt.
   void release(const Lease& lease);

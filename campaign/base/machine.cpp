@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace haff::campaign {
 namespace {
@@ -47,26 +48,37 @@ std::optional<int> quota_1(const std::filesystem::path& group) {
   return processors_of(quota, period);
 }
 
-// The least quota of this process's cgroups and of those that hold them. /proc/self/cgroup has
-// lines "0::/path" for version 2 and "4:cpu,cpuacct:/path" for version 1.
-std::optional<int> quota() {
+// The folders of this process's cgroups and of those that hold them, with their version.
+// /proc/self/cgroup has lines "0::/path" for version 2 and "4:cpu,cpuacct:/path" for version 1.
+struct Group {
+  std::filesystem::path folder;
+  bool is_2;
+};
+
+std::vector<Group> groups_of(const std::string& controller) {
   const std::filesystem::path root = "/sys/fs/cgroup";
-  std::optional<int> least;
+  std::vector<Group> groups;
   std::ifstream file("/proc/self/cgroup");
   for (std::string line; std::getline(file, line);) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;
     const std::string controllers = line.substr(first + 1, second - first - 1);
     const bool is_2 = controllers.empty();
-    if (!is_2 && controllers.find("cpu") == std::string::npos) continue;
+    if (!is_2 && controllers.find(controller) == std::string::npos) continue;
     const auto base = is_2 ? root : root / controllers;
     for (std::filesystem::path group = line.substr(second + 1);; group = group.parent_path()) {
-      const auto here = base / group.relative_path();
-      if (const auto found = is_2 ? quota_2(here) : quota_1(here))
-        least = std::min(least.value_or(*found), *found);
+      groups.push_back({base / group.relative_path(), is_2});
       if (!group.has_relative_path()) break;
     }
   }
+  return groups;
+}
+
+std::optional<int> quota() {
+  std::optional<int> least;
+  for (const auto& [folder, is_2] : groups_of("cpu"))
+    if (const auto found = is_2 ? quota_2(folder) : quota_1(folder))
+      least = std::min(least.value_or(*found), *found);
   return least;
 }
 
@@ -77,10 +89,19 @@ int processors() {
   return std::max(1, std::min(mask, quota().value_or(mask)));
 }
 
+double memory_bytes() {
+  double least =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  for (const auto& [folder, is_2] : groups_of("memory")) {
+    std::ifstream file(folder / (is_2 ? "memory.max" : "memory.limit_in_bytes"));
+    double limit = 0;
+    if (file >> limit && limit > 0) least = std::min(least, limit);  // "max" is no number
+  }
+  return least;
+}
+
 schema::Memory machine_memory() {
-  const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
-  return {.bytes = pages * static_cast<double>(sysconf(_SC_PAGESIZE)),
-          .bytes_per_particle = least_bytes_per_particle};
+  return {.bytes = memory_bytes(), .bytes_per_particle = least_bytes_per_particle};
 }
 
 }  // namespace haff::campaign

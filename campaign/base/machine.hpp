@@ -9,6 +9,10 @@ namespace haff::campaign {
 // up.
 int processors();
 
-schema::Memory machine_memory();  // and what a particle of a running job takes of it
+// Memory that this process and its workers may use: the machine's, or the limit of its cgroups.
+double memory_bytes();
+
+// The same, with what a particle of a running job takes of it at least.
+schema::Memory machine_memory();
 
 }  // namespace haff::campaign

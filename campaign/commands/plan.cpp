@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -17,8 +19,11 @@
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/output.hpp"
 #include "campaign/base/text_table.hpp"
+#include "campaign/planning/advice.hpp"
 #include "campaign/planning/expansion.hpp"
 #include "campaign/planning/forecast.hpp"
+#include "campaign/planning/preparation.hpp"
+#include "campaign/results/box.hpp"
 #include "schema/grid.hpp"
 #include "schema/store.hpp"
 
@@ -27,6 +32,9 @@ namespace {
 
 using schema::Outcome;
 using schema::Planned;
+
+// A store without jobs: its tables, indexes and views. [bytes]
+constexpr double empty_store_bytes = 100e3;
 
 // Jobs of one line of the table.
 struct Group {
@@ -70,7 +78,7 @@ void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcome
   std::map<Outcome, int> all;
   double cpu_seconds = 0;
   double memory = 0;
-  double disk = 0;
+  double disk = empty_store_bytes;
   for (std::size_t k = 0; k < jobs.size(); ++k) {
     const double expected = jobs[k].expected_cpu_seconds.value_or(0);
     Group& group = groups[group_of(jobs[k])];
@@ -107,6 +115,59 @@ void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcome
   say("{} jobs: {}.\n", jobs.size(), counts_text(all, dry_run));
   say("Expected in all: {} of CPU time ({}), {} of memory for each worker, {} on disk.\n",
       duration_text(cpu_seconds), forecast.source(), bytes_text(memory), bytes_text(disk));
+  if (const double all_workers = processors() * memory; all_workers > memory_bytes())
+    say("Warning: {} workers, as many as `run` starts here, would take {} of memory; {} are there: "
+        "run "
+        "with --workers {}.\n",
+        processors(), bytes_text(all_workers), bytes_text(memory_bytes()),
+        std::max(1.0, std::floor(memory_bytes() / memory)));
+}
+
+// What the boxes of the plan can hold by linear theory, a line for each gas, and warnings.
+void print_boxes(const std::vector<Planned>& jobs) {
+  TextTable table({{"e"},
+                   {"n"},
+                   {"N"},
+                   {"L"},
+                   {"vortices"},
+                   {"clusters"},
+                   {"fastest wave"},
+                   {"fit"},
+                   {"grown by tau"}});
+  std::set<std::tuple<int, double, double, std::uint32_t>> seen;
+  std::vector<std::string> warnings;
+  for (const auto& [job, tau_max, checkpoint_every, expected] : jobs) {
+    const bool is_plain = job.kind == schema::Kind::cooling && job.e && job.effects == "{}";
+    if (!is_plain || !seen.emplace(job.d, *job.e, job.n, job.particles).second) continue;
+    const auto report = box_report(job);
+    if (!report) continue;
+    if (std::string warning = haff_warning(job, *report); !warning.empty())
+      warnings.push_back(std::move(warning));
+    const auto number = [](const std::optional<double>& value, int digits) {
+      return value ? fmt::format("{:.{}f}", *value, digits) : std::string(no_value);
+    };
+    table.add({number_text(*job.e), number_text(job.n), count_text(job.particles),
+               number(report->side, 1), number(report->vortices_across, 1),
+               number(report->clusters_across, 1), number(report->fastest_wave, 1),
+               number(report->waves_across, 0), number(report->grown_tau, 0)});
+  }
+  if (table.empty()) return;
+  say("\nWhat the boxes can hold, by linear theory: how many of the shortest growing vortices "
+      "(2 pi xi_perp) and\nclusters (2 pi xi_par) fit along L; the wave that grows fastest, how "
+      "many "
+      "of it fit, and the tau at which\nit has grown by a factor 2.72.\n\n{}",
+      table.text());
+  for (const std::string& warning : warnings) say("Warning: {}.\n", warning);
+}
+
+void print_advice(const std::vector<Planned>& jobs, const std::vector<schema::JobRow>& known) {
+  print_boxes(jobs);
+  for (const std::string& line : near_twins(jobs, known)) say("Note: {}\n", line);
+  if (const std::size_t again = recomputed(jobs, known))
+    say("Note: {} of the new jobs are of gases that the store has with other observables. What a "
+        "job "
+        "measures is\n  part of it: they are computed a second time.\n",
+        again);
 }
 
 // What the targets will take beyond the jobs above, as far as runs that are done tell.
@@ -145,28 +206,33 @@ void print_next(const PlanOptions& options) {
 }  // namespace
 
 int plan(const PlanOptions& options) {
-  const schema::Grid grid = schema::read_grid(options.grid, machine_memory());
+  const schema::Grid grid = schema::read_grid(options.grid, machine_memory(), why_not_prepared);
   std::vector<Planned> jobs = expand(grid);
   const std::vector<schema::Target> targets = targets_of(grid);
   if (!options.dry_run) {
     schema::Store store = schema::Store::create(options.store);
-    Forecast forecast(store.jobs());
+    const std::vector<schema::JobRow> known = store.jobs();
+    Forecast forecast(known);
     expect(jobs, forecast);
     const std::vector<Outcome> outcomes = store.add(jobs);
     store.add(targets);
     keep_predictions(store);
     print(jobs, outcomes, forecast, false);
+    print_advice(jobs, known);
     print_targets(progress_of(store, targets));
   } else if (std::filesystem::exists(options.store)) {
     const schema::Reader store(options.store);
-    Forecast forecast(store.jobs());
+    const std::vector<schema::JobRow> known = store.jobs();
+    Forecast forecast(known);
     expect(jobs, forecast);
     print(jobs, store.preview(jobs), forecast, true);
+    print_advice(jobs, known);
     print_targets(preview(store, jobs, targets));
   } else {
     Forecast forecast({});
     expect(jobs, forecast);
     print(jobs, std::vector(jobs.size(), Outcome::added), forecast, true);
+    print_advice(jobs, {});
     print_targets(progress_of(jobs, targets));
   }
   print_next(options);

@@ -19,6 +19,7 @@
 #include "campaign/base/printable.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/cluster/shards.hpp"
+#include "campaign/results/box.hpp"
 #include "campaign/results/mixed_physics.hpp"
 #include "campaign/results/series.hpp"
 #include "campaign/run/abandoned.hpp"
@@ -280,6 +281,23 @@ ordered_json running_json(const schema::RunningJob& job) {
   return object;
 }
 
+// What the box can hold by linear theory; null for gases that it does not treat.
+ordered_json box_json(const schema::Job& job) {
+  const auto box = box_report(job);
+  if (!box) return nullptr;
+  return {{"side", box->side},
+          {"vortex_length", box->vortex_length},
+          {"cluster_length", box->cluster_length},
+          {"vortices_across", box->vortices_across},
+          {"clusters_across", box->clusters_across},
+          {"fastest_wave", or_null(box->fastest_wave)},
+          {"fastest_rate", or_null(box->fastest_rate)},
+          {"waves_across", or_null(box->waves_across)},
+          {"grown_tau", or_null(box->grown_tau)},
+          {"haff_particles", box->haff_particles},
+          {"keeps_haff", box->keeps_haff}};
+}
+
 ordered_json series_json(const Series& series) {
   ordered_json object = physics_json(series.job);
   object.update({{"realizations_planned", series.planned},
@@ -289,7 +307,8 @@ ordered_json series_json(const Series& series) {
                  {"reached", series.reached},
                  {"tau_c", or_null(series.tau_c)},
                  {"tau_c_se", or_null(series.tau_c_se)},
-                 {"published_tau_c", or_null(series.published_tau_c)}});
+                 {"published_tau_c", or_null(series.published_tau_c)},
+                 {"box", box_json(series.job)}});
   return object;
 }
 

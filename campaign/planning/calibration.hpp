@@ -18,10 +18,15 @@ struct Prices {
 
 // Cools, or equilibrates, such a gas for some `seconds` of CPU time, at most to tau_max, and
 // measures what the job does. Large gases are tried at 200 000 particles, beyond which speed hardly
-// changes; crowded ones at n = 0.9, where a lattice can be had at once.
+// changes; crowded ones that begin on a lattice at n = 0.9; those that must grow, which takes
+// longer than anything else, at 500. What happens once in a process is not in these prices.
 Prices try_out(const schema::Job& job, double tau_max, double seconds);
 
-// Memory of the engine for such a gas. [bytes per particle]
-double bytes_per_particle(const schema::Job& job);
+// What a particle of such a gas takes. [bytes]
+struct Sizes {
+  double engine = 0;  // of the memory of a running job
+  double state = 0;   // of a stored state
+};
+Sizes sizes(const schema::Job& job);
 
 }  // namespace haff::campaign

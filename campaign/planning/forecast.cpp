@@ -1,8 +1,12 @@
 #include "campaign/planning/forecast.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "analysis/observables/coarse_grained.hpp"
 #include "campaign/job/timetable.hpp"
+#include "engine/simulation.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -14,11 +18,12 @@ constexpr double trustworthy = 0.2;
 constexpr double trial_seconds = 0.25;
 constexpr std::size_t trials_at_length = 10;
 
-// A particle in engine::State, which a worker that stores it holds once, and once more encoded.
-constexpr double state_bytes = 52;
+// What storing a state takes beside the gas: the state, the same encoded in an array that has grown
+// by doubling, and a chunk of it in SQLite. [bytes per particle]
+constexpr double storing_bytes = 260;
 
 // A worker with no gas. [bytes]
-constexpr double program_bytes = 12e6;
+constexpr double program_bytes = 14e6;
 
 // One row of samples (12 numbers) and of jobs in SQLite, with their share of the index pages.
 constexpr double sample_bytes = 115;
@@ -44,20 +49,76 @@ double end_of(const schema::Planned& plan) {
   return synchronization_tau(synchronization_at_or_after(plan.tau_max));
 }
 
-double sum_of(const Prices& prices, const schema::Planned& plan) {
+// How often a job does what, as its timetable says (campaign/job/timetable.hpp), without walking
+// through it: a run may have millions of stops.
+struct Counts {
+  double samples = 0, profiles = 0, fields = 0, synchronizations = 0, commits = 0;
+};
+
+Counts counts_of(const schema::Planned& plan) {
   const double end = end_of(plan);
-  double sum = prices.start + 0.5 * end * plan.job.particles * prices.collision;
-  Timetable timetable(plan.job, end, plan.checkpoint_every);
-  while (const auto stop = timetable.next()) {
-    if (stop->due == Stop::Due::synchronization) {
-      sum += prices.synchronization + (stop->keep ? prices.commit : 0);
-      continue;
-    }
-    sum += prices.sample;
-    if (has_profiles(plan.job, stop->tau)) sum += prices.profiles;
-    if (has_fields(plan.job, stop->tau)) sum += prices.fields;
+  Counts counts;
+  counts.samples = static_cast<double>(sample_count(plan.job.sample_every, end));
+  if (plan.job.profiles_every)
+    counts.profiles = static_cast<double>(sample_count(*plan.job.profiles_every, end));
+  counts.fields = static_cast<double>(
+      std::ranges::count_if(plan.job.fields_at, [&](double tau) { return tau <= end; }));
+  counts.synchronizations = std::floor(end / engine::synchronization_period);
+  counts.commits = std::min(counts.synchronizations,
+                            std::floor(end / plan.checkpoint_every) + 1);  // the last one too
+  return counts;
+}
+
+double sum_of(const Prices& prices, const schema::Planned& plan) {
+  const Counts counts = counts_of(plan);
+  return prices.start + 0.5 * end_of(plan) * plan.job.particles * prices.collision +
+         counts.samples * prices.sample + counts.profiles * prices.profiles +
+         counts.fields * prices.fields + counts.synchronizations * prices.synchronization +
+         counts.commits * prices.commit;
+}
+
+// Points of all the curves that are taken at once, and bytes of a point (a row with a name, three
+// numbers and the job). The curves have as many points as their meshes have shells (analysis/
+// observables).
+constexpr double profile_row_bytes = 46;
+
+double mesh_cells(double box) {
+  constexpr double most = 128;
+  return std::min(most, std::floor(box));
+}
+
+double profile_points(const schema::Job& job, double box) {
+  double points = 0;
+  for (const std::string& observable : job.observables) {
+    if (observable == "distribution") points += 40;  // bins of 0.1 up to some four thermal speeds
+    if (observable == "correlations") points += 2 * std::floor(mesh_cells(box) / 2);
+    if (observable == "structure") points += std::floor(mesh_cells(box) / 4);
   }
-  return sum;
+  return points;
+}
+
+double field_bytes(const schema::Job& job) {
+  const double cells = analysis::coarse_cells(job.particles, job.d);
+  return std::pow(cells, job.d) * (job.d + 2) * sizeof(double);
+}
+
+double box_of(const schema::Job& job) {
+  return std::pow(job.particles / job.n, 1.0 / job.d);
+}
+
+// Arrays that a look at the whole gas needs at once: for correlations a field and its transform,
+// the transforms of number and momenta, and weights; for a structure factor a field and its
+// transform. With them positions and velocities.
+double view_bytes(const schema::Job& job) {
+  if (!job.profiles_every && job.fields_at.empty()) return 0;
+  const double cells = std::pow(mesh_cells(box_of(job)), job.d) * sizeof(double);
+  double arrays = 0;
+  for (const std::string& observable : job.observables) {
+    if (observable == "correlations") arrays = std::max(arrays, (job.d + 4.0) * cells);
+    if (observable == "structure") arrays = std::max(arrays, 2 * cells);
+    if (schema::is_field(observable)) arrays = std::max(arrays, 2 * field_bytes(job));
+  }
+  return arrays + 52.0 * job.particles;
 }
 
 }  // namespace
@@ -97,15 +158,22 @@ double Forecast::cpu_seconds(const schema::Planned& plan) {
 }
 
 double Forecast::memory_bytes(const schema::Job& job) {
-  const auto [place, is_new] = bytes_per_particle_.try_emplace({job.d, job.n, job.effects}, 0);
-  if (is_new) place->second = bytes_per_particle(job);
-  return program_bytes + (place->second + 2 * state_bytes) * job.particles;
+  return program_bytes + sizes_of(job).engine * job.particles +
+         std::max(storing_bytes * job.particles, view_bytes(job));
 }
 
-double Forecast::disk_bytes(const schema::Planned& plan) const {
-  const double interval = plan.job.sample_every;
-  return job_bytes + state_bytes * plan.job.particles +
-         sample_bytes * static_cast<double>(sample_count(interval, plan.tau_max));
+const Sizes& Forecast::sizes_of(const schema::Job& job) {
+  const auto [place, is_new] = sizes_.try_emplace({job.d, job.n, job.effects});
+  if (is_new) place->second = sizes(job);
+  return place->second;
+}
+
+double Forecast::disk_bytes(const schema::Planned& plan) {
+  const Counts counts = counts_of(plan);
+  const double state = counts.commits > 0 ? sizes_of(plan.job).state : 0;
+  return job_bytes + state * plan.job.particles + sample_bytes * counts.samples +
+         counts.profiles * profile_row_bytes * profile_points(plan.job, box_of(plan.job)) +
+         counts.fields * field_bytes(plan.job);
 }
 
 std::string Forecast::source() const {

@@ -20,7 +20,7 @@ class Forecast {
 
   double cpu_seconds(const schema::Planned& plan);  // from the start to tau_max
   double memory_bytes(const schema::Job& job);      // of one worker
-  double disk_bytes(const schema::Planned& plan) const;
+  double disk_bytes(const schema::Planned& plan);
 
   // Where the speeds come from, in words.
   std::string source() const;
@@ -33,11 +33,12 @@ class Forecast {
 
   std::optional<double> known_seconds_per_collision(const schema::Job& job);
   const Prices& prices(const schema::Planned& plan);
+  const Sizes& sizes_of(const schema::Job& job);
 
   // By what makes a job fast or slow.
   std::map<std::string, Work> known_;
   std::map<std::string, Prices> tried_;
-  std::map<std::tuple<int, double, std::string>, double> bytes_per_particle_;  // d, n, effects
+  std::map<std::tuple<int, double, std::string>, Sizes> sizes_;  // by d, n, effects
   bool used_store_ = false;
 };
 

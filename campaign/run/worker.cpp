@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -53,10 +54,16 @@ Ending drive(Attempt& attempt, const Reporter& reporter) try {
   return attempt.collapse(what);
 }
 
+struct Failure {
+  std::string why;
+  bool again = true;  // another attempt may succeed
+};
+
 // What went wrong with the job, nothing if it is done or was left. Errors of the store are not
 // the job's fault and are passed on.
-std::optional<std::string> error_of(Attempt& attempt, const Reporter& reporter) {
+std::optional<Failure> failure_of(Attempt& attempt, const Reporter& reporter) {
   std::string why;
+  bool again = true;
   try {
     if (drive(attempt, reporter) == Ending::finished)
       reporter.send(LogReport{Level::info, name_of(attempt.claim()) + " done"});
@@ -67,15 +74,19 @@ std::optional<std::string> error_of(Attempt& attempt, const Reporter& reporter) 
     throw;
   } catch (const std::bad_alloc&) {
     why = "out of memory: run fewer workers";
+  } catch (const std::invalid_argument& error) {  // a gas that cannot be, whenever it is tried
+    why = std::string(error.what()) + "; it would fail again in the same way";
+    again = false;
   } catch (const std::exception& error) {
     why = error.what();
   }
-  return fmt::format("{} ({})", why, attempt.place());
+  return Failure{fmt::format("{} ({})", why, attempt.place()), again};
 }
 
-void fail(schema::Store& store, const schema::Claim& claim, const std::string& error,
+void fail(schema::Store& store, const schema::Claim& claim, const Failure& failure,
           const Reporter& reporter) {
-  if (store.fail(claim.lease, error) == schema::Status::failed)
+  const std::string& error = failure.why;
+  if (store.fail(claim.lease, error, failure.again) == schema::Status::failed)
     reporter.send(LogReport{Level::error, fmt::format("{} failed: {}", name_of(claim), error)});
   else
     reporter.send(
@@ -88,7 +99,7 @@ void work_on(schema::Store& store, const schema::Claim& claim, const Reporter& r
   reporter.send(LogReport{Level::debug, name_of(claim) + " begins"});
   Attempt attempt(store, claim, reporter, static_cast<unsigned>(threads));
   try {
-    if (const auto error = error_of(attempt, reporter)) fail(store, claim, *error, reporter);
+    if (const auto failure = failure_of(attempt, reporter)) fail(store, claim, *failure, reporter);
   } catch (const schema::LeaseLost&) {
     reporter.send(LogReport{Level::warning, name_of(claim) + " belongs to another worker now"});
   }

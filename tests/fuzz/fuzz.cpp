@@ -32,9 +32,10 @@ std::uint64_t below(Random& random, std::uint64_t end) {
 // ---- grids ------------------------------------------------------------------------------------
 
 std::string value(Random& random, int depth) {
-  static const char* const scalars[] = {"0.8",  "1",  "-1",      "0",  "1e-4",  "1e300",      "0.4",
-                                        "1000", "2",  "\"tc\"",  "{}", "null",  "true",       "[]",
-                                        "50",   "90", "\"0.8\"", "1e", "1e999", "\"\\u0000\""};
+  static const char* const scalars[] = {
+      "0.8",     "1",      "-1",    "0",           "1e-4",   "1e300", "0.4",  "1000",
+      "2",       "\"tc\"", "{}",    "null",        "true",   "[]",    "50",   "90",
+      "\"0.8\"", "1e",     "1e999", "\"\\u0000\"", "1e-400", "1e12",  "1e18", "1e-9"};
   if (depth > 0 && below(random, 3) == 0) {
     std::string list = "[";
     for (std::uint64_t k = below(random, 3); k-- > 0;) list += value(random, depth - 1) + ",";
@@ -54,9 +55,9 @@ std::string value(Random& random, int depth) {
 }
 
 std::string grid(Random& random) {
-  static const char* const keys[] = {"e",           "n",       "N",     "seeds",
-                                     "tau_max",     "effects", "grids", "sample_every",
-                                     "equilibrate", "name",    "nn",    "observables"};
+  static const char* const keys[] = {
+      "e",           "n",    "N",  "seeds",       "tau_max", "effects", "grids", "sample_every",
+      "equilibrate", "name", "nn", "observables", "target",  "$schema", "_",     "profiles_every"};
   std::string text = R"({"e": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 20)";
   if (below(random, 2) == 0) text = "{\"e\": " + value(random, 2);
   for (std::uint64_t k = below(random, 5); k-- > 0;)

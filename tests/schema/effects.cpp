@@ -99,16 +99,17 @@ TEST_CASE("effects: what is wrong is named") {
         "\"threshold\"?");
   CHECK(complaint(R"({"restitution": {"law": "tc"}})") ==
         "g.json: /effects/restitution: has no \"t_c\"; expected a duration of contact [sigma "
-        "sqrt(m/E(0))], above 0, or a list of them");
+        "sqrt(m/E(0))], from 1e-100 to 1e6, or a list of them");
   CHECK(complaint(R"({"restitution": {"law": "tc", "t_c": 1, "speed": 1}})") ==
         "g.json: /effects/restitution/speed: unknown key; expected one of \"law\", \"t_c\"");
   CHECK(complaint(R"({"restitution": {"t_c": 1}})") ==
         "g.json: /effects/restitution: has no \"law\"; expected the name of a law of restitution");
   CHECK(complaint(R"({"restitution": {"law": "tc", "t_c": 0}})") ==
         "g.json: /effects/restitution/t_c: 0 is not accepted; expected a duration of contact "
-        "[sigma sqrt(m/E(0))], above 0, or a list of them");
+        "[sigma sqrt(m/E(0))], from 1e-100 to 1e6, or a list of them");
   CHECK(complaint(R"({"restitution": [{"law": "tc", "t_c": [1, -1]}]})") ==
-        "g.json: /effects/restitution/0/t_c/1: -1 is not accepted; expected a number above 0");
+        "g.json: /effects/restitution/0/t_c/1: -1 is not accepted; expected a number from 1e-100 "
+        "to 1e6");
 }
 
 TEST_CASE("effects: a shuffle, swept") {
@@ -116,7 +117,7 @@ TEST_CASE("effects: a shuffle, swept") {
         Texts{R"({"shuffle":{"every":1.0}})", R"({"shuffle":{"every":5.0}})"});
   CHECK(complaint(R"({"shuffle": {}})") ==
         "g.json: /effects/shuffle: has no \"every\"; expected an interval between shuffles "
-        "[collisions per particle], above 0, or a list of them");
+        "[collisions per particle], above 0 and at most 1e9, or a list of them");
 }
 
 TEST_CASE("effects: viscoelastic spheres have no e") {
@@ -139,7 +140,7 @@ TEST_CASE("effects: viscoelastic spheres have no e") {
                        GridError);
   CHECK(complaint(R"({"restitution": {"law": "viscoelastic", "A": 0.7}})") ==
         "g.json: /effects/restitution/A: 0.7 is not accepted; expected a strength of viscous "
-        "dissipation [(sqrt(E(0)/m))^(-1/5)], above 0 and below 0.67, or a list of them");
+        "dissipation [(sqrt(E(0)/m))^(-1/5)], from 1e-100 to below 0.67, or a list of them");
 }
 
 TEST_CASE("effects: combinations without sense are refused by name") {
@@ -220,7 +221,7 @@ TEST_CASE("effects: what is wrong with roughness or a mixture is named") {
         "coefficient, from -1 (smooth) to 1 (perfectly rough), or a list of them");
   CHECK(complaint(R"({"roughness": {"beta": 0.5}})") ==
         "g.json: /effects/roughness: has no \"q\"; expected a reduced moment of inertia 4 I / (m "
-        "sigma^2), above 0 and at most 1, 0.4 for solid spheres, or a list of them");
+        "sigma^2), from 1e-6 to 1, 0.4 for solid spheres, or a list of them");
   CHECK(complaint(R"({"mixture": {"fraction": 0.5, "diameter_ratio": 2, "mass_ratio": 1}})") ==
         "g.json: /effects/mixture/diameter_ratio: 2 is not accepted; expected the diameter of "
         "species 2 in that of species 1, from 0.05 to 1 (species 1 is the larger), or a list of "

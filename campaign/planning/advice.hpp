@@ -1,0 +1,22 @@
+// What a user should know of a plan beside its price: jobs that differ from those of the store by
+// rounding, or that will compute again what the store has.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+// Lines such as "e = 0.8500000001 of this grid and 0.85 of the store differ by less than 1e-9:
+// ...", one for each pair of values. `known`: the jobs of the store.
+std::vector<std::string> near_twins(const std::vector<schema::Planned>& plan,
+                                    const std::vector<schema::JobRow>& known);
+
+// How many cooling jobs of the plan are new, but for their observables equal to one of the store
+// that has run: observables are part of a job, so that its gas is computed a second time.
+std::size_t recomputed(const std::vector<schema::Planned>& plan,
+                       const std::vector<schema::JobRow>& known);
+
+}  // namespace haff::campaign
