@@ -342,8 +342,8 @@ class Examiner {
   void can_be_packed(const Source& source) const {
     std::vector<Mixture> mixtures;
     for (const Json& one : expanded(source["effects"].value)) mixtures.push_back(mixture_in(one));
-    std::ranges::sort(mixtures);
-    mixtures.erase(std::ranges::unique(mixtures).begin(), mixtures.end());
+    std::sort(mixtures.begin(), mixtures.end());
+    mixtures.erase(std::unique(mixtures.begin(), mixtures.end()), mixtures.end());
     for (const int d : source.list<int>("d"))
       for (const Placed& density : items(source["n"]))
         for (const Mixture& mixture : mixtures) {

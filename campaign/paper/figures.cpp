@@ -169,7 +169,8 @@ int draw_figures(const schema::Reader& store, const FigureRequest& request, std:
                  figure.plan);
     if (!plot) continue;
     const std::size_t before = files.written().size();
-    files.attempt(stem.string() + ".csv", [&](const auto& file) { write_table(*plot, file); });
+    files.attempt(stem.string() + ".csv",
+                  [&plot = plot](const auto& file) { write_table(*plot, file); });
     draw_both(*plot, stem, files);
     entry.caption = printable(plot->caption);
     std::vector<std::string> endings;

@@ -534,7 +534,7 @@ TEST_CASE("a number too small for a double is named so") {
 // ---- bounds -----------------------------------------------------------------------------------
 
 TEST_CASE("no number of a grid is beyond what a run can do with it") {
-  for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& each : std::vector<std::pair<std::string, std::string>>{
            {"tau_max", "1e12"},
            {"tau_max", "1e300"},
            {"tau_max", R"({"0.8": 1e12})"},
@@ -548,6 +548,7 @@ TEST_CASE("no number of a grid is beyond what a run can do with it") {
            {"effects", R"({"restitution": {"law": "tc", "t_c": 1e200}})"},
            {"effects", R"({"roughness": {"beta": 0, "q": 1e-300}})"},
            {"seeds", "2000000"}}) {
+    const std::string key = each.first, value = each.second;
     CAPTURE(key);
     CAPTURE(value);
     CHECK(complaint(with(key, value)).starts_with("g.json: /" + key));

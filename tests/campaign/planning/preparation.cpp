@@ -36,10 +36,10 @@ TEST_CASE("preparation: what neither a lattice nor growth can do is refused with
 
 TEST_CASE("preparation: what is let pass can be grown") {
   // The densest ones, without a lattice, of several sizes.
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     CHECK_FALSE(why_not_prepared(spheres(1.2, 501)));
     CHECK_NOTHROW(engine::initial_state(1.2, 501, seed));
-    for (const std::uint32_t particles : {31, 101}) {
+    for (const std::uint32_t particles : {31U, 101U}) {
       CHECK_FALSE(why_not_prepared(disks(1.04, particles)));
       CHECK_NOTHROW(engine::initial_state(1.04, particles, seed, 2));
     }

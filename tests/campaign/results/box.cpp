@@ -21,7 +21,8 @@ schema::Job cooling(double e, std::uint32_t particles) {
 }  // namespace
 
 TEST_CASE("box: below N = 563 (e = 0.8) and 1468 (e = 0.9) a gas of n = 0.4 keeps to Haff's law") {
-  for (const auto& [e, particles] : {std::pair{0.8, 563.0}, std::pair{0.9, 1468.0}}) {
+  for (const auto& each : {std::pair{0.8, 563.0}, std::pair{0.9, 1468.0}}) {
+    const double e = each.first, particles = each.second;
     CAPTURE(e);
     const BoxReport small =
         box_report(cooling(e, static_cast<std::uint32_t>(particles) - 1)).value();
