@@ -61,7 +61,8 @@ struct Mixture {
   double fraction = 0;  // of species 2
   double diameter_ratio = 1;
 
-  auto operator<=>(const Mixture&) const = default;
+  // clang-tidy 14 takes the zero that <=> compares with for a null pointer.
+  auto operator<=>(const Mixture&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 Mixture mixture_in(const Json& effects) {

@@ -69,8 +69,8 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
           ->capture_default_str();
   command
       ->add_option("--threads", options.threads,
-                   "Threads of each worker, for large gases (100 000 particles and more); every "
-                   "number gives the same rows")
+                   "Threads of each worker; every number gives the same rows, and so far two are "
+                   "no faster than one")
       ->check(CLI::Range(1, most_threads))
       ->type_name("T")
       ->capture_default_str();
