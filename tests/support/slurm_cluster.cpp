@@ -104,9 +104,10 @@ PreemptMode=REQUEUE
   setenv("SLURM_CONF", (folder / "slurm.conf").c_str(), 1);
 
   const auto start = [&](const std::string& command) {
-    const auto [text, status] = shell_output(command);
-    REQUIRE_MESSAGE(status == 0, command << ": " << text
-                                         << " (Debian's packages slurm-wlm and munge are needed)");
+    const auto result = shell_output(command);
+    REQUIRE_MESSAGE(
+        result.second == 0,
+        command << ": " << result.first << " (Debian's packages slurm-wlm and munge are needed)");
   };
   start("PATH=$PATH:/usr/sbin munged --force --key-file=" + place + "/munge.key --socket=" + place +
         "/munge.socket --pid-file=" + place + "/munged.pid --log-file=" + place +
@@ -138,14 +139,14 @@ pid_t SlurmCluster::daemon(const std::string& node) const {
 }
 
 void SlurmCluster::start_daemon(const std::string& node) const {
-  const auto [text, status] = shell_output("PATH=$PATH:/usr/sbin slurmd -N " + node);
-  REQUIRE_MESSAGE(status == 0, "slurmd of " << node << ": " << text);
+  const auto result = shell_output("PATH=$PATH:/usr/sbin slurmd -N " + node);
+  REQUIRE_MESSAGE(result.second == 0, "slurmd of " << node << ": " << result.first);
 }
 
 std::string SlurmCluster::slurm(const std::string& command) const {
-  auto [text, status] = shell_output(command);
-  REQUIRE_MESSAGE(status == 0, command << ": " << text);
-  return text;
+  auto result = shell_output(command);
+  REQUIRE_MESSAGE(result.second == 0, command << ": " << result.first);
+  return std::move(result.first);
 }
 
 void SlurmCluster::wait_until_empty(int seconds) const {
