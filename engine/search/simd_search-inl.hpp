@@ -24,7 +24,9 @@ namespace haff::engine::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // `dimension` is called d elsewhere; here Highway's tags have that name.
-#if HWY_TARGET == HWY_SCALAR  // processors without useful vectors
+// A processor without vectors gains nothing from emulated ones. (Highway 1.0.3 emulates MinOfLanes
+// wrongly, too: it finds the largest finite number where all lanes are infinite.)
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
 template <int dimension = 3, class PairGeometry = HardSpheres>
 using SimdSearch = PlainSearch<PairGeometry, NearbyNearestImage, dimension>;
 #else
