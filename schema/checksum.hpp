@@ -1,6 +1,6 @@
 // The checksum of a checkpoint: FNV-1a with 64 bits (Fowler, Noll and Vo). Every step is
 // invertible, so that any change confined to one byte, and any bit flip, changes the sum; other
-// damage goes unseen with probability 2^-64. Short enough to be written again by whoever reads
+// damage goes unseen with probability 2^-64. Short enough to be written again by a user who reads
 // the store without this program.
 #pragma once
 

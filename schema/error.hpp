@@ -28,8 +28,8 @@ struct Locked : StoreError {
   using StoreError::StoreError;
 };
 
-// The job this writer worked on belongs to another now (or to nobody). Nothing was written: stop
-// working on it.
+// The job this writer worked on belongs to another writer now, or to none. Nothing was written:
+// stop working on it.
 struct LeaseLost : StoreError {
   using StoreError::StoreError;
 };

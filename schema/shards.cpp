@@ -197,7 +197,7 @@ std::string identity_of(SQLite::Database& sqlite, std::int64_t job_id) {
   return text(statement, "identity");
 }
 
-// Adds a job of theirs, as one that nobody has begun; its equilibration must be here already.
+// Adds a job of the shard's, as one that has not begun; its equilibration must be here already.
 std::int64_t add_job(SQLite::Database& ours, SQLite::Database& theirs, std::int64_t their_id) {
   std::vector<std::string> columns = table_of(theirs, "jobs").columns;
   std::erase_if(columns, [](const std::string& name) { return of_this_store.contains(name); });

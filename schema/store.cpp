@@ -306,7 +306,8 @@ void note_physics(SQLite::Database& sqlite, const Lease& lease, int physics_vers
   statement.exec();
 }
 
-// A commit, with its checksum already computed: nobody should wait for the write lock meanwhile.
+// A commit, with its checksum already computed, so that no process waits for the write lock
+// meanwhile.
 class Entry {
  public:
   Entry(const Lease& lease, const Commit& commit) : lease_(lease), commit_(commit) {

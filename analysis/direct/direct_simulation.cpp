@@ -126,7 +126,7 @@ class Realization {
     return static_cast<std::int64_t>(std::llround(rounds * length * count() / 2));
   }
 
-  // Momentum zero, E = 1, clocks at zero; nobody has collided yet.
+  // Momentum zero, E = 1, clocks at zero; no particle has collided yet.
   void start() {
     remove_momentum();
     const double scale = std::sqrt(2.0 / d / moments(velocity_, d).temperature);

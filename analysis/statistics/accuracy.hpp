@@ -10,8 +10,8 @@
 //                          mean +- t s / sqrt(R) with the s of the R_0 pilot values and R_0 - 1
 //                          degrees keeps its coverage exactly, as in the two stages of C. Stein,
 //                          Ann. Math. Stat. 16, 243 (1945). With s_R in its place the interval
-//                          would be too narrow: who stops when s_R is small has often been lucky
-//                          (5 pilots: 92 % instead of 95 %).
+//                          would be too narrow: a sample that stops because s_R is small is often a
+//                          lucky one (5 pilots: 92 % instead of 95 %).
 #pragma once
 
 #include <cstddef>

@@ -72,7 +72,7 @@ std::string signature() {
                      std::chrono::system_clock::now().time_since_epoch().count());
 }
 
-// Says which task works on a shard. A task that was requeued may still live where nobody sees it,
+// Says which task works on a shard. A task that was requeued may still live out of sight,
 // on a node that was cut off: the newer one takes over, and the older one must not put back less.
 class Claimed {
  public:

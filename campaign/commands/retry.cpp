@@ -48,7 +48,7 @@ struct Damaged {
 std::vector<Damaged> damaged_jobs(const schema::Reader& store) {
   std::vector<Damaged> damaged;
   for (const schema::JobRow& row : store.jobs()) {
-    // The first two are somebody else's at the moment, the last is about to be mended.
+    // Other processes work on the first two, and the last is about to be mended.
     if (row.status == schema::Status::running || row.status == schema::Status::lent ||
         row.starts_over)
       continue;

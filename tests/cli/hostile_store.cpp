@@ -1,4 +1,4 @@
-// A store that somebody else made: its text reaches no shell, no script, no page and no terminal as
+// A store made elsewhere: its text reaches no shell, no script, no page and no terminal as
 // a command.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <doctest/doctest.h>

@@ -37,9 +37,9 @@ template <class RestitutionModel>
 double e_at(double speed, const Parameters& parameters, int exponent = 0) {
   RestitutionModel law(1, parameters);
   law.scale(exponent);
-  const Particle nobody{};
+  const Particle particle{};
   const double scaled = std::ldexp(speed, exponent);
-  return law({nobody, nobody, 0, scaled * scaled, 1, 1});
+  return law({particle, particle, 0, scaled * scaled, 1, 1});
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ TEST_CASE("cooling by many decades keeps numbers near one and time growing") {
   CHECK(gas.exponent() > 20);
 }
 
-TEST_CASE("a gas in which nobody moves cannot be run") {
+TEST_CASE("a gas in which no particle moves cannot be run") {
   State still = initial_state(0.4, 108, 1);
   for (Vector& v : still.velocity) v = {0, 0, 0};
   Simulation gas({.restitution = 1}, still);

@@ -191,7 +191,7 @@ TEST_CASE("effects: what compares with Haff's law is no target where they change
   CHECK(with(R"({"shuffle": {"every": 1}})", tau_c) == "no complaint");
 }
 
-TEST_CASE("effects: Haff's law is that of gases with an e which nobody heats") {
+TEST_CASE("effects: Haff's law holds for gases with an e and without a thermostat") {
   CHECK(cools_by_haff({.e = 0.8}));
   CHECK(cools_by_haff({.e = 0.8, .effects = R"({"shuffle":{"every":1.0}})"}));
   CHECK_FALSE(cools_by_haff({.e = 0.8, .effects = R"({"thermostat":{"rate":1.0}})"}));

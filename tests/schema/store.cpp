@@ -349,7 +349,7 @@ TEST_CASE("a writer whose lease has passed to another is refused and changes not
   old.store.commit(next->lease, late);
 }
 
-TEST_CASE("a lease that nobody took over is lost too") {
+TEST_CASE("a lease that was released is lost, although no other worker took the job") {
   Working working;
   working.store.release(working.claim.lease);
   CHECK_THROWS_AS(working.store.commit(working.claim.lease, {}), LeaseLost);

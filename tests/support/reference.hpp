@@ -40,7 +40,7 @@ class ReferenceOf {
       double fastest = 0;
       for (const auto& p : particles_)
         fastest = std::max(fastest, engine::dot(p.velocity, p.velocity));
-      // Until then nobody moves by more than a quarter of the box relative to another, so the
+      // Until then no particle moves by more than a quarter of the box relative to another, so the
       // contact is with one of the 27 images around the nearest (of disks 9).
       const double horizon = clock_.now + 0.125 * box_.side / std::sqrt(fastest);
       // Time, then the smaller, then the larger id: the order of events that share a time.

@@ -210,7 +210,7 @@ TEST_CASE("accuracy: of skewed values the bias is a fraction of a standard error
     const Stopping result = stopping(lognormal_values, pilots, 1000);
     // Some -0.18 and -0.11, each known to 0.02; 94 % to 0.4 %.
     const double bias = result.bias.mean / 0.5;
-    CHECK(bias < 0);  // who has drawn no large value yet stops early
+    CHECK(bias < 0);  // a sample without a large value stops early
     CHECK(bias > -0.25);
     CHECK(result.coverage > 0.925);
     CHECK(result.coverage < most_coverage);

@@ -102,7 +102,8 @@ TEST_CASE("a particle leaves through the face ahead, when it gets there") {
   CHECK(bricks.exit(p, Cell{0}, 0.26 * cell).time == 0.26 * cell);
 }
 
-TEST_CASE("around a disk's cell are nine, beyond a face three, and nobody leaves up or down") {
+TEST_CASE(
+    "a disk's cell has nine around it and three beyond a face, and no disk leaves up or down") {
   const Box square(8.4, 2);
   Bricks bricks(square, 2000);
   for (std::uint32_t x = 0; x < 8; ++x)
