@@ -1,82 +1,87 @@
 #include "schema/database.hpp"
 
+#include <SQLiteCpp/Backup.h>
 #include <sqlite3.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <string>
-#include <system_error>
 #include <thread>
-#include <vector>
 
-#include "schema/embedded.hpp"
+#include "schema/file/patience.hpp"
 #include "schema/network.hpp"
 #include "schema/store.hpp"
-#include "schema/views.hpp"
 
 namespace haff::schema {
 
 namespace {
 
-constexpr std::string_view in_memory = ":memory:";
+// Stores of this version and later are plain files when nothing runs on them; older programs left
+// them prepared for a log.
+constexpr int plain_at_rest_since = 12;  // 016-plain.sql
 
-// The scripts 001-....sql, 002-....sql in their order: a store's version is how many it has seen.
-// Whatever brings a store to the newest version ends with the last one, and with it the views are
-// made anew.
-std::vector<std::string_view> scripts() {
-  std::vector<std::string_view> texts;
-  for (const Embedded& file : embedded())
-    if (file.name.ends_with(".sql")) texts.push_back(file.text);
-  static const std::string last_and_views = std::string(texts.back()) + mean_views_script();
-  texts.back() = last_and_views;
-  return texts;
-}
-
-int number(SQLite::Database& sqlite, const char* sql) {
-  return sqlite.execAndGet(sql).getInt();
-}
-
-int version(SQLite::Database& sqlite) {
-  return number(sqlite, "PRAGMA user_version");
-}
-
-bool empty(SQLite::Database& sqlite) {
-  return number(sqlite, "SELECT count(*) FROM sqlite_schema") == 0 && version(sqlite) == 0 &&
-         number(sqlite, "PRAGMA application_id") == 0;
-}
+// SQLite's own limit is 1 GB. The largest row holds a chunk of a checkpoint. [bytes]
+constexpr int longest_row = 4 * static_cast<int>(chunk_bytes);
 
 std::string plan_first(const std::filesystem::path& path) {
   return "; make it with: campaign plan GRID.json --store " + path.string();
 }
 
-void must_exist(const std::filesystem::path& path) {
-  if (std::error_code none; !std::filesystem::exists(path, none))
-    throw StoreError(path.string() + ": there is no such store" + plan_first(path));
+bool has_log(const std::filesystem::path& file) {
+  std::error_code none;
+  const auto log = beside(file, "-wal");
+  return std::filesystem::exists(log, none) && std::filesystem::file_size(log, none) > 0;
 }
 
-void must_be_store(SQLite::Database& sqlite, const std::filesystem::path& path) {
-  if (number(sqlite, "PRAGMA application_id") != application_id)
-    throw StoreError(path.string() +
-                     ": is the SQLite file of another program; name a store with --store FILE");
+std::string mode(SQLite::Database& sqlite) {
+  return sqlite.execAndGet("PRAGMA journal_mode").getString();
 }
 
-void must_not_be_newer(int found, std::size_t known, const std::filesystem::path& path) {
-  if (found > static_cast<int>(known))
-    throw StoreError(path.string() + ": was written by a newer program (store version " +
-                     std::to_string(found) + ", this one knows " + std::to_string(known) +
-                     "); update campaign");
+// A store may come from somebody else: what SQLite offers against a crafted file is switched on.
+// The schema itself is compared with ours before anything else is read (versions.hpp).
+//
+// Not TRUSTED_SCHEMA = 0: SQLite 3.40 counts its own JSON functions, which our constraints and
+// views use, among the unsafe ones, and opens no store then. What it would forbid, functions with
+// side effects in a view of somebody else's, is not there: no extension is loaded, no function of
+// ours registered, and the tokenizers of FTS3 stay closed.
+void be_careful(SQLite::Database& sqlite) {
+  sqlite3* handle = sqlite.getHandle();
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_FTS3_TOKENIZER, 0, nullptr);
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0, nullptr);
+  sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, longest_row);
+  sqlite3_limit(handle, SQLITE_LIMIT_ATTACHED, 0);
+  sqlite3_limit(handle, SQLITE_LIMIT_WORKER_THREADS, 0);
+  sqlite.exec("PRAGMA cell_size_check = ON");
 }
 
-// A store on a medium that cannot be written, with no write-ahead log beside it, does not change:
-// SQLite must be told so, since it would keep its locks in a file next to the store.
-bool frozen(const std::filesystem::path& path) {
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  return access(folder.c_str(), W_OK) != 0 && !std::filesystem::exists(path.string() + "-wal");
+// The settings of a reader: no statement of a user's, of several in one text neither, may undo
+// them.
+int allow_to_a_reader(void*, int action, const char* pragma, const char* value, const char*,
+                      const char*) {
+  if (action == SQLITE_ATTACH || action == SQLITE_DETACH) return SQLITE_DENY;
+  if (action == SQLITE_PRAGMA && value != nullptr && std::string_view(pragma) == "query_only")
+    return SQLITE_DENY;
+  return SQLITE_OK;
 }
 
-std::string frozen_uri(const std::filesystem::path& path) {
-  std::string uri = "file:";
-  for (const char c : path.string()) {
+void only_read(SQLite::Database& sqlite) {
+  sqlite.exec("PRAGMA query_only = ON");
+  sqlite3_set_authorizer(sqlite.getHandle(), allow_to_a_reader, nullptr);
+}
+
+std::unique_ptr<SQLite::Database> connection(const std::string& name, int flags,
+                                             const char* way_to_the_disk) {
+  auto sqlite = std::make_unique<SQLite::Database>(name, flags, 0, way_to_the_disk);
+  be_patient(sqlite->getHandle());
+  be_careful(*sqlite);
+  return sqlite;
+}
+
+std::string immutable_uri(const std::filesystem::path& file) {
+  std::string uri = "file://";
+  for (const char c : file.string()) {
     if (c == '%')
       uri += "%25";
     else if (c == '?')
@@ -89,33 +94,21 @@ std::string frozen_uri(const std::filesystem::path& path) {
   return uri + "?immutable=1";
 }
 
-SQLite::Database opened(const std::filesystem::path& path, Access access) {
-  const int wait = static_cast<int>(busy_timeout.count());
-  if (access == Access::create)
-    return {path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, wait};
-  must_exist(path);
-  if (access == Access::write) return {path.string(), SQLite::OPEN_READWRITE, wait};
-  if (frozen(path)) return {frozen_uri(path), SQLite::OPEN_READONLY | SQLite::OPEN_URI, wait};
-  return {path.string(), SQLite::OPEN_READONLY, wait};
+// A store of an older version, read as if it had been brought forward: a temporary copy has.
+std::unique_ptr<SQLite::Database> copy_brought_forward(SQLite::Database& old,
+                                                       const std::filesystem::path& name) {
+  auto copy = std::make_unique<SQLite::Database>("", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                                                 0, file_system());
+  SQLite::Backup(*copy, old).executeStep();
+  migrate(*copy, name, scripts());
+  be_patient(copy->getHandle());
+  be_careful(*copy);
+  return copy;
 }
 
-void prepare_to_read(SQLite::Database& sqlite, const std::filesystem::path& path) {
-  if (empty(sqlite)) throw StoreError(path.string() + ": is empty" + plan_first(path));
-  must_be_store(sqlite, path);
-  const auto known = scripts().size();
-  must_not_be_newer(version(sqlite), known, path);
-  if (version(sqlite) < static_cast<int>(known))
-    throw StoreError(path.string() + ": is of an older version (" +
-                     std::to_string(version(sqlite)) + ", this program's is " +
-                     std::to_string(known) + "); bring it forward with: campaign run --store " +
-                     path.string());
-  sqlite.exec("PRAGMA query_only = ON");
-}
-
-// The journal's mode after asking for the write-ahead log. Two processes that turn the same new
-// file each hold the read lock the other must wait for: SQLite refuses one of them at once,
-// whatever its timeout, since waiting inside would never end. So the loser tries again from the
-// outside.
+// The journal's mode after asking for the write-ahead log. Two processes that turn the same file
+// each hold the read lock the other must wait for: SQLite refuses one of them at once, whatever its
+// timeout, since waiting inside would never end. So the loser tries again from the outside.
 std::string write_ahead(SQLite::Database& sqlite) {
   constexpr std::chrono::milliseconds pause{5};
   const auto until = std::chrono::steady_clock::now() + busy_timeout;
@@ -128,94 +121,258 @@ std::string write_ahead(SQLite::Database& sqlite) {
     }
 }
 
-void prepare_to_write(SQLite::Database& sqlite, const std::filesystem::path& path) {
-  if (sqlite3_db_readonly(sqlite.getHandle(), "main") == 1)
-    throw StoreError(path.string() + ": may not be written; check the permissions of the file");
-  // Somebody else's file must not change, not even its journal.
-  if (!empty(sqlite)) must_be_store(sqlite, path);
-
-  // The write-ahead log needs memory that all users share, which a network file system does not
-  // give to several hosts. Campaign's lock lets one host use the store at a time.
-  const bool on_network = path != in_memory && is_on_network(path);
-  const auto journal = on_network ? sqlite.execAndGet("PRAGMA journal_mode = DELETE").getString()
-                                  : write_ahead(sqlite);
-  if (journal != "wal" && !on_network && path != in_memory)
-    throw StoreError(path.string() +
-                     ": this file system does not support SQLite's write-ahead log; "
-                     "put the store on a local disk");
-  // NORMAL: a commit reaches the operating system, not yet the disk. A killed process loses
-  // nothing; power loss undoes the newest commits, and what they held is computed again with the
-  // same bits, so that waiting for the disk at each commit would buy nothing.
-  sqlite.exec("PRAGMA synchronous = NORMAL");
-  sqlite.exec("PRAGMA foreign_keys = ON");
-  // A replaced checkpoint need not be overwritten with zeros first.
-  sqlite.exec("PRAGMA secure_delete = OFF");
-  // The log grows to the largest commit, a checkpoint; give the space back afterwards. [bytes]
-  sqlite.exec("PRAGMA journal_size_limit = 67108864");
-  migrate(sqlite, path, scripts());
-}
-
 }  // namespace
 
-Database::Database(const std::filesystem::path& path, Access access) try
-    : path_(path), sqlite_(opened(path, access)) {
+// Whatever changes when somebody writes the file.
+struct Database::Stamp {
+  explicit Stamp(const std::filesystem::path& file) { stat(file.c_str(), &info); }
+
+  bool operator==(const Stamp& other) const {
+    return info.st_dev == other.info.st_dev && info.st_ino == other.info.st_ino &&
+           info.st_size == other.info.st_size && info.st_mtim.tv_sec == other.info.st_mtim.tv_sec &&
+           info.st_mtim.tv_nsec == other.info.st_mtim.tv_nsec;
+  }
+
+  struct stat info {};
+};
+
+Database::Database(const std::filesystem::path& path, Access access) try : path_(path) {
+  forget_trouble();
+  file_ = resolved(path);
+  if (access != Access::create) must_exist(path, file_);
   if (access == Access::read)
-    prepare_to_read(sqlite_, path_);
+    open_to_read();
   else
-    prepare_to_write(sqlite_, path_);
+    open_to_write(access);
 } catch (const SQLite::Exception& error) {
   raise(path, error);
 }
 
-void Database::wait_for_locks_while(bool (*may_wait)()) {
-  // Called by SQLite each time it finds the lock taken; 0 ends the waiting.
-  const auto wait = [](void* asked, int times) {
-    constexpr std::chrono::milliseconds pause{10};
-    const auto may_go_on = reinterpret_cast<bool (*)()>(asked);
-    if (times * pause > busy_timeout || !may_go_on()) return 0;
-    std::this_thread::sleep_for(pause);
-    return 1;
-  };
-  sqlite3_busy_handler(sqlite_.getHandle(), wait, reinterpret_cast<void*>(may_wait));
+Database::Database() = default;
+
+std::unique_ptr<Database> Database::in_memory() {
+  std::unique_ptr<Database> database(new Database);
+  database->path_ = database->file_ = "a store in memory";
+  database->sqlite_ =
+      connection(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, file_system());
+  database->bring_forward();
+  database->sqlite_->exec("PRAGMA foreign_keys = ON");
+  return database;
 }
 
-void Database::raise(const std::filesystem::path& path, const SQLite::Exception& error) {
-  const std::string file = path.string();
-  const std::string said = error.what();
-  switch (error.getErrorCode() & 0xff) {  // without SQLite's extension of the code
-    case SQLITE_FULL:
-    case SQLITE_IOERR:
-      throw DiskError(file + ": the disk is full or fails (" + said +
-                      "); nothing of this was stored. Make room, then give the same command again");
-    case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-      throw Locked(file + ": another process keeps it locked (" + said +
-                   "); see what holds it, then give the same command again");
-    case SQLITE_CORRUPT:
-      throw Damage(file + ": is damaged (" + said + "); see: campaign verify --store " + file);
-    case SQLITE_NOTADB:
-      throw StoreError(file + ": is not an SQLite file; name a store with --store FILE");
-    case SQLITE_CANTOPEN:
-      throw StoreError(file + ": cannot be opened (" + said +
-                       "); check that its folder exists and may be written");
-    case SQLITE_READONLY:
-      throw StoreError(file + ": may not be written (" + said + "); check its permissions");
-    default:
-      throw StoreError(file + ": " + said);
+Database::~Database() {
+  if (writes_) try {
+      close_log();
+    } catch (const StoreError&) {  // the log stays, and the next command uses it
+    }
+}
+
+void Database::open_to_read() {
+  unlocked_.reset();
+  original_.reset();
+  const bool log_exists = identity_of(beside(file_, "-wal")).has_value();
+  if (may_write(file_)) {
+    sqlite_ = connection(file_.string(), SQLite::OPEN_READWRITE, file_system());
+    // A log that was there stays there: its owner comes back for it.
+    if (log_exists)
+      sqlite3_db_config(sqlite_->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  } else {
+    open_to_observe();
   }
+  if (is_empty(*sqlite_))
+    throw NameError(path_.string() + ": is empty" + plan_first(path_) +
+                    " (a plan that was cut off leaves such a file)");
+  must_be_store(*sqlite_, path_);
+  const int version = version_of(*sqlite_);
+  const auto known = scripts().size();
+  must_not_be_newer(version, known, path_);
+  must_have_our_schema(*sqlite_, version, path_);
+  lacks_log_ = version >= plain_at_rest_since && !log_exists && mode(*sqlite_) == "wal";
+  if (version < static_cast<int>(known)) {
+    original_ = std::move(sqlite_);
+    sqlite_ = copy_brought_forward(*original_, path_);
+  }
+  only_read(*sqlite_);
 }
 
-void migrate(SQLite::Database& sqlite, const std::filesystem::path& path,
-             std::span<const std::string_view> scripts) {
-  if (version(sqlite) == static_cast<int>(scripts.size())) return;
-  SQLite::Transaction transaction(sqlite, SQLite::TransactionBehavior::IMMEDIATE);
-  const int from = version(sqlite);  // again: another process may just have done it
-  must_not_be_newer(from, scripts.size(), path);
-  for (std::size_t i = static_cast<std::size_t>(from); i < scripts.size(); ++i)
-    sqlite.exec(std::string(scripts[i]));
-  sqlite.exec("PRAGMA application_id = " + std::to_string(application_id));
-  sqlite.exec("PRAGMA user_version = " + std::to_string(scripts.size()));
-  transaction.commit();
+// Without the right to write the file, or to make others beside it.
+void Database::open_to_observe() {
+  const bool has_index = identity_of(beside(file_, "-shm")).has_value();
+  if (has_log(file_) && !has_index)
+    throw Unavailable(path_.string() +
+                      ": its newest rows are in the log beside it, which cannot be read without "
+                      "the right to write there; copy both files, " +
+                      file_.filename().string() + " and " + file_.filename().string() +
+                      "-wal, to a folder of yours and read that copy" + in_the_way(path_));
+  try {
+    sqlite_ = connection(file_.string(), SQLite::OPEN_READONLY, observer_file_system());
+    version_of(*sqlite_);  // the first look at the file
+    return;
+  } catch (const SQLite::Exception& error) {
+    const bool asks_for_log = (error.getErrorCode() & 0xff) == SQLITE_CANTOPEN && !has_log(file_);
+    if (!asks_for_log) throw;
+  }
+  // Prepared for a log that is not there: nobody writes it now. It is read without locks, and
+  // before() and after() look whether somebody has begun to.
+  forget_trouble();
+  unlocked_ = std::make_unique<const Stamp>(file_);
+  sqlite_ = connection(immutable_uri(file_), SQLite::OPEN_READONLY | SQLite::OPEN_URI,
+                       observer_file_system());
+}
+
+void Database::open_to_write(Access access) {
+  must_have_one_name(path_, file_);
+  if (access == Access::create) make(path_, file_);
+  sqlite_ = connection(file_.string(), SQLite::OPEN_READWRITE, file_system());
+  if (sqlite3_db_readonly(sqlite_->getHandle(), "main") == 1)
+    throw StoreError(path_.string() + ": may not be written" + in_the_way(path_));
+  const bool is_new = is_empty(*sqlite_);
+  if (is_new && access != Access::create)
+    throw NameError(path_.string() + ": is empty" + plan_first(path_));
+  const int version = version_of(*sqlite_);
+  const auto known = static_cast<int>(scripts().size());
+  if (!is_new) {
+    must_be_store(*sqlite_, path_);
+    must_not_be_newer(version, scripts().size(), path_);
+    must_have_our_schema(*sqlite_, version, path_);
+  }
+  if (is_new)
+    bring_forward();
+  else if (version < known && access != Access::upgrade)
+    throw StoreError(path_.string() + ": is of an older version (" + std::to_string(version) +
+                     ", this program's is " + std::to_string(known) +
+                     ") and can only be read; bring it forward with: campaign upgrade --store " +
+                     path_.string());
+  writes_ = true;
+  file_identity_ = identity_of(file_);
+  // The log is copied into the file by copy_log() alone.
+  sqlite_->exec("PRAGMA wal_autocheckpoint = 0");
+  // With a log, a commit reaches the operating system, not yet the disk. A killed process loses
+  // nothing; power loss undoes the newest commits, and what they held is computed again with the
+  // same bits, so that waiting for the disk at each commit would buy nothing. Without a log each
+  // commit waits for the disk: there are few, and a plan is not computed again.
+  sqlite_->exec(mode(*sqlite_) == "wal" ? "PRAGMA synchronous = NORMAL"
+                                        : "PRAGMA synchronous = FULL");
+  sqlite_->exec("PRAGMA foreign_keys = ON");
+  // A replaced checkpoint need not be overwritten with zeros first.
+  sqlite_->exec("PRAGMA secure_delete = OFF");
+  // The log grows to the largest commit, a checkpoint; give the space back afterwards. [bytes]
+  sqlite_->exec("PRAGMA journal_size_limit = 67108864");
+  if (mode(*sqlite_) == "wal") remember_log();
+}
+
+void Database::bring_forward(const std::function<void()>& afterwards) {
+  // The scripts may change the schema's text (004-effects.sql), which no other statement may.
+  sqlite3_db_config(sqlite_->getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 0, nullptr);
+  migrate(*sqlite_, path_, scripts(), afterwards);
+  sqlite3_db_config(sqlite_->getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+}
+
+void Database::wait_for_locks_while(bool (*may_wait)()) {
+  be_patient(sqlite_->getHandle(), may_wait);
+}
+
+// A log needs memory that all users share, which a network file system does not give to several
+// hosts. There a store stays a plain file, and campaign's lock lets one host use it at a time.
+void Database::open_log() {
+  if (is_on_network(file_)) {
+    close_log();
+    return;
+  }
+  guarded([&] {
+    if (write_ahead(*sqlite_) != "wal")
+      throw StoreError(path_.string() +
+                       ": this file system does not support SQLite's write-ahead log; put the "
+                       "store on a local disk");
+    sqlite_->exec("PRAGMA synchronous = NORMAL");
+    remember_log();
+  });
+}
+
+// SQLite opens the log when it first needs it, and keeps that file open from then on.
+void Database::remember_log() {
+  { const SQLite::Transaction first(*sqlite_, SQLite::TransactionBehavior::IMMEDIATE); }
+  log_identity_ = identity_of(beside(file_, "-wal"));
+}
+
+std::optional<std::string> Database::displaced() const {
+  if (!file_identity_) return std::nullopt;  // in memory
+  const auto there = identity_of(file_);
+  if (!there) return "was deleted or moved away";
+  if (there != file_identity_) return "was replaced by another file";
+  if (log_identity_ && identity_of(beside(file_, "-wal")) != log_identity_)
+    return "has lost its log (" + beside(file_, "-wal").filename().string() +
+           "), which was deleted or replaced";
+  return std::nullopt;
+}
+
+LogSize Database::copy_log() {
+  if (!log_identity_) return {};
+  return guarded([&] {
+    if (!copier_) {
+      copier_ = connection(file_.string(), SQLite::OPEN_READWRITE, file_system());
+      copier_->exec("PRAGMA wal_autocheckpoint = 0");
+      copier_->exec("PRAGMA synchronous = NORMAL");
+    }
+    const SQLite::Transaction no_commits_meanwhile(*sqlite_,
+                                                   SQLite::TransactionBehavior::IMMEDIATE);
+    int frames = 0;
+    int copied = 0;
+    const int result = sqlite3_wal_checkpoint_v2(copier_->getHandle(), "main",
+                                                 SQLITE_CHECKPOINT_PASSIVE, &frames, &copied);
+    if (result != SQLITE_OK) throw SQLite::Exception(copier_->getHandle(), result);
+    std::error_code none;
+    const auto bytes = std::filesystem::file_size(beside(file_, "-wal"), none);
+    return LogSize{.bytes = none ? 0 : static_cast<std::int64_t>(bytes),
+                   .is_copied = copied == frames};
+  });
+}
+
+bool Database::close_log(std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds pause{20};
+  copier_.reset();
+  if (displaced()) {
+    // SQLite deletes a log by its name, and would delete that of the file that took our place.
+    sqlite3_db_config(sqlite_->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    return false;
+  }
+  const auto until = std::chrono::steady_clock::now() + patience;
+  while (true) try {
+      if (mode(*sqlite_) != "wal") return true;
+      if (sqlite_->execAndGet("PRAGMA journal_mode = DELETE").getString() != "wal") {
+        log_identity_.reset();
+        return true;
+      }
+      throw SQLite::Exception("the log stays", SQLITE_BUSY);
+    } catch (const SQLite::Exception& error) {
+      if ((error.getErrorCode() & 0xff) != SQLITE_BUSY) raise(path_, error);
+      if (std::chrono::steady_clock::now() >= until) return false;
+      std::this_thread::sleep_for(pause);
+    }
+}
+
+// Has an owner begun to write what is being read without locks? Then it is read with them.
+void Database::before() {
+  forget_trouble();
+  if (unlocked_ && (has_log(file_) || *unlocked_ != Stamp(file_))) try {
+      open_to_read();
+    } catch (const SQLite::Exception& error) {
+      raise(path_, error);
+    }
+}
+
+void Database::after() const {
+  if (unlocked_ && *unlocked_ != Stamp(file_))
+    throw Unavailable(path_.string() +
+                      ": was written while it was being read; give the same command again");
+}
+
+void Database::must_be_of_this_version() {
+  const int version = version_of(*sqlite_);
+  if (version != static_cast<int>(scripts().size()))
+    throw StoreError(path_.string() + ": was brought forward to version " +
+                     std::to_string(version) +
+                     " by a newer program while this one used it; update campaign");
 }
 
 }  // namespace haff::schema

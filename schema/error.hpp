@@ -5,9 +5,14 @@
 
 namespace haff::schema {
 
-// The store cannot be opened, is not a store, or SQLite reported an error.
+// The store cannot be used as it was asked for.
 struct StoreError : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+// What the user named is not there, or is not a store: the user's input, not the store, is wrong.
+struct NameError : StoreError {
+  using StoreError::StoreError;
 };
 
 // The system would not let the store be read or written just now: another process holds a lock, no
@@ -17,15 +22,15 @@ struct Unavailable : StoreError {
   using StoreError::StoreError;
 };
 
+// Another process kept the store locked for longer than this one may wait.
+struct Locked : Unavailable {
+  using Unavailable::Unavailable;
+};
+
 // The disk is full or does not write. The transaction was rolled back: the store holds what it
 // held before.
 struct DiskError : Unavailable {
   using Unavailable::Unavailable;
-};
-
-// Another process kept the store locked for longer than this one may wait.
-struct Locked : StoreError {
-  using StoreError::StoreError;
 };
 
 // The job this writer worked on belongs to another writer now, or to none. Nothing was written:
@@ -34,8 +39,8 @@ struct LeaseLost : StoreError {
   using StoreError::StoreError;
 };
 
-// What is stored contradicts itself: a checkpoint whose bytes do not add up to its checksum, or a
-// sample that came out different when it was computed a second time.
+// What is stored contradicts itself: SQLite finds its pages in disorder, a checkpoint's bytes do
+// not add up to its checksum, or a sample came out different when it was computed a second time.
 struct Damage : StoreError {
   using StoreError::StoreError;
 };

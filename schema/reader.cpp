@@ -1,11 +1,9 @@
-#include <SQLiteCpp/Backup.h>
-#include <sqlite3.h>
-
 #include <algorithm>
 #include <limits>
 
 #include "schema/checksum.hpp"
 #include "schema/database.hpp"
+#include "schema/file/backup.hpp"
 #include "schema/rows.hpp"
 #include "schema/store.hpp"
 
@@ -23,6 +21,10 @@ JobRow row_of_job(const SQLite::Statement& row) {
 }
 
 }  // namespace
+
+int newest_version() {
+  return static_cast<int>(scripts().size());
+}
 
 Reader::Reader(const std::filesystem::path& path)
     : Reader(std::make_unique<Database>(path, Access::read)) {}
@@ -107,7 +109,7 @@ JobRow Reader::job(std::int64_t job_id) const {
     SQLite::Statement statement(database_->sqlite(), "SELECT * FROM jobs WHERE job_id = ?");
     statement.bind(1, job_id);
     if (!statement.executeStep())
-      throw StoreError(path().string() + ": there is no job " + std::to_string(job_id));
+      throw NameError(path().string() + ": there is no job " + std::to_string(job_id));
     return row_of_job(statement);
   });
 }
@@ -331,6 +333,14 @@ std::optional<Checkpoint> Reader::checkpoint(std::int64_t job_id) const {
   });
 }
 
+std::uintmax_t Reader::back_up(const std::filesystem::path& to) const {
+  return schema::back_up(*database_, to);
+}
+
+bool Reader::lacks_log() const {
+  return database_->lacks_log();
+}
+
 Outcome outcome(SQLite::Database& sqlite, const Planned& planned) {
   SQLite::Statement statement(sqlite, "SELECT tau_max, status FROM jobs WHERE identity = ?");
   statement.bind(1, identity(planned.job));
@@ -351,25 +361,6 @@ std::vector<Outcome> Reader::preview(const std::vector<Planned>& plan) const {
 
 Query Reader::query(const std::string& sql) const {
   return {*database_, sql};
-}
-
-std::uintmax_t Reader::back_up(const std::filesystem::path& to) const {
-  database_->guarded([&] {
-    SQLite::Database copy(to.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    SQLite::Backup backup(copy, database_->sqlite());
-    while (backup.executeStep(-1) != SQLITE_DONE) {
-    }
-    copy.exec("PRAGMA journal_mode = DELETE");
-    copy.exec(R"(
-      UPDATE jobs SET
-        status = 'pending', owner_boot_id = NULL, owner_pid = NULL, owner_started = NULL,
-        renewed = NULL,
-        tau = coalesce((SELECT tau FROM checkpoints WHERE checkpoints.job_id = jobs.job_id), 0),
-        collisions = coalesce(
-          (SELECT collisions FROM checkpoints WHERE checkpoints.job_id = jobs.job_id), 0)
-      WHERE status = 'running')");
-  });
-  return std::filesystem::file_size(to);
 }
 
 std::vector<std::string> Reader::faults() const {

@@ -351,6 +351,45 @@ Store Store::open(const std::filesystem::path& path) {
   return Store(std::make_unique<Database>(path, Access::write));
 }
 
+Store Store::in_memory() {
+  return Store(Database::in_memory());
+}
+
+int Store::upgrade(const std::filesystem::path& path, const std::vector<Lease>& dead) {
+  Database database(path, Access::upgrade);
+  return database.guarded([&] {
+    SQLite::Database& sqlite = database.sqlite();
+    const int before = version_of(sqlite);
+    database.bring_forward([&] {
+      for (const Lease& lease : dead)
+        if (holds(sqlite, lease)) leave(sqlite, lease, Status::pending);
+      SQLite::Statement running(sqlite, "SELECT * FROM jobs WHERE status = 'running'");
+      if (running.executeStep())
+        throw StoreError(path.string() + ": job " + std::to_string(integer(running, "job_id")) +
+                         " is being run by process " + std::to_string(owner(running).pid) + " on " +
+                         owner(running).host +
+                         ", a program of the older version; upgrade when its run has ended");
+    });
+    return before;
+  });
+}
+
+void Store::open_log() {
+  database().open_log();
+}
+
+LogSize Store::copy_log() {
+  return database().copy_log();
+}
+
+bool Store::close_log(std::chrono::milliseconds patience) {
+  return database().close_log(patience);
+}
+
+std::optional<std::string> Store::displaced() const {
+  return database().displaced();
+}
+
 std::vector<Outcome> Store::add(const std::vector<Planned>& plan) {
   return database().transaction([&] {
     std::vector<Outcome> outcomes(plan.size());

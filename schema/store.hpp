@@ -9,12 +9,13 @@
 //     store.finish(claim->lease, last_commit, results, claim->tau_max);
 //   }
 //
-// What is promised. Every function that writes is one transaction: it happens entirely or not at
-// all, whenever the process is killed. Many processes on one machine may read and write at the
-// same time (WAL: readers never wait, writers wait for each other up to busy_timeout). At power
-// loss the newest transactions may be undone, in order, the store stays sound (synchronous =
-// NORMAL): since samples and the checkpoint that follows them are one transaction, what is undone
-// is computed again, with the same bits. A full disk undoes the transaction and is reported.
+// What is promised (README.md of this folder says by which means). Every function that writes is
+// one transaction: it happens entirely or not at all, whenever the process is killed. Many
+// processes on one machine may read and write at the same time; between open_log() and close_log()
+// readers never wait, and writers wait for each other up to busy_timeout. At power loss the newest
+// transactions may be undone, in order, and the store stays sound: since samples and the checkpoint
+// that follows them are one transaction, what is undone is computed again, with the same bits. A
+// full disk undoes the transaction and is reported.
 //
 // One connection belongs to one thread, and must not be used across fork().
 // All functions throw the types of error.hpp.
@@ -32,6 +33,7 @@
 
 #include "schema/error.hpp"
 #include "schema/job.hpp"
+#include "schema/log.hpp"
 #include "schema/query.hpp"
 #include "schema/shards.hpp"
 #include "schema/target.hpp"
@@ -237,10 +239,14 @@ struct Summary {
   double remaining_cpu_seconds = 0;     // of which still to come: of pending and running jobs
 };
 
-// Reads a store, and cannot write it: SQLite refuses.
+// The version of the stores that this program makes.
+int newest_version();
+
+// Reads a store, and cannot write it: SQLite refuses. A store of an older version is read as if it
+// had been brought forward, and stays as it is.
 class Reader {
  public:
-  // Throws StoreError if there is no store at path, or one of another version.
+  // Throws StoreError if there is no store at path, or one of a newer version.
   explicit Reader(const std::filesystem::path& path);
   ~Reader();
   Reader(Reader&&) noexcept;
@@ -299,6 +305,9 @@ class Reader {
   // size.
   std::uintmax_t back_up(const std::filesystem::path& to) const;
 
+  // The store's newest rows may be missing: it was left, or copied, without the log beside it.
+  bool lacks_log() const;
+
   // SQLite's integrity check and the foreign keys: one line a fault, none if all is sound.
   std::vector<std::string> faults() const;
 
@@ -314,11 +323,28 @@ class Reader {
 // Reads and writes a store.
 class Store : public Reader {
  public:
-  // The store at path, made if there is none, brought forward if it is of an older version.
-  // ":memory:" gives one that is gone when closed.
+  // The store at path, made if there is none. Throws StoreError if it is of an older version.
   static Store create(const std::filesystem::path& path);
   // The same, but there must be one.
   static Store open(const std::filesystem::path& path);
+  // One without a file, gone when it is closed.
+  static Store in_memory();
+
+  // Brings a store of an older version forward, and gives back the jobs that were held under these
+  // leases, whose owners are dead. Throws StoreError, and changes nothing, if another job is being
+  // run: its worker is a program of the old version. Returns the version that it was of.
+  static int upgrade(const std::filesystem::path& path, const std::vector<Lease>& dead);
+
+  // From here on many processes may write while others read. Who opened the log calls copy_log()
+  // now and then, or it grows; close_log() makes one plain file of the store again, and returns
+  // false if somebody else still uses it.
+  void open_log();
+  LogSize copy_log();
+  bool close_log(std::chrono::milliseconds patience);
+
+  // What has happened to the file at the store's path, if it is no longer the one that is open:
+  // "was deleted or moved away". Whatever is written from then on is lost when the store is closed.
+  std::optional<std::string> displaced() const;
 
   // Add the jobs that are missing, extend those that are there with a smaller tau_max: one
   // transaction, outcomes in the order given. A cooling job's equilibration must be in the plan

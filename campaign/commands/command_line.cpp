@@ -24,8 +24,8 @@ constexpr int most_shards = 100'000;
 
 constexpr const char* exit_codes = R"(Exit codes:
   0  complete
-  1  a job failed, a target cannot be met, the store is damaged or cannot be written
-  2  bad input: grid, command line or SQL
+  1  a job failed, a target cannot be met, the store is damaged or cannot be read or written
+  2  bad input: grid, command line, the name of the store, or SQL
   3  stopped by --max-time or --budget with work left
   128 + signal  interrupted; the same command goes on)";
 
@@ -213,6 +213,32 @@ CLI::App* add_retry(CLI::App& app) {
   auto* command =
       app.add_subcommand("retry", "Reopen failed jobs and those with a damaged checkpoint");
   command->footer(examples("  campaign retry && campaign run"));
+  return command;
+}
+
+CLI::App* add_backup(CLI::App& app, BackupCommand& options) {
+  auto* command =
+      app.add_subcommand("backup", "Copy the store to another file, also while a run is on");
+  command->add_option("FILE", options.to, "The copy; must not be there yet")
+      ->type_name("FILE")
+      ->required();
+  command->footer(examples(R"(  campaign backup monday.db
+  campaign backup /media/disk/dense.db --store dense.db
+
+The copy holds the store as it is at one moment, in one file, and is checked. While a run is on,
+part of the store is in a second file, campaign.db-wal: `cp campaign.db` alone would miss it.
+Jobs that are being run are pending in the copy.)"));
+  return command;
+}
+
+CLI::App* add_upgrade(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("upgrade", "Bring a store of an older version of this program forward");
+  command->footer(examples(R"(  campaign backup before.db && campaign upgrade
+
+An older store can be read as it is; to plan and run in it takes this command, while nothing runs.
+It is one transaction: cut off, it has changed nothing. Older programs cannot use the store after
+it.)"));
   return command;
 }
 
@@ -476,6 +502,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   FigureRequest figures;
   ExportCommand exported;
   CostRequest cost;
+  BackupCommand backup;
   SplitOptions split;
   MergeOptions merge;
   RecallOptions recall;
@@ -492,6 +519,8 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   const CLI::App* cost_command = add_cost(app, cost);
   const CLI::App* verify_command = add_verify(app);
   const CLI::App* retry_command = add_retry(app);
+  const CLI::App* backup_command = add_backup(app, backup);
+  const CLI::App* upgrade_command = add_upgrade(app);
   const CLI::App* split_command = add_split(app, split);
   const CLI::App* merge_command = add_merge(app, merge);
   const CLI::App* recall_command = add_recall(app, recall);
@@ -527,6 +556,8 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   if (cost_command->parsed()) line.command = cost;
   if (verify_command->parsed()) line.command = VerifyCommand{};
   if (retry_command->parsed()) line.command = RetryCommand{};
+  if (backup_command->parsed()) line.command = backup;
+  if (upgrade_command->parsed()) line.command = UpgradeCommand{};
   if (split_command->parsed()) line.command = split;
   if (merge_command->parsed()) line.command = merge;
   if (recall_command->parsed()) line.command = recall;

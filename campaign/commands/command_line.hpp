@@ -32,16 +32,20 @@ struct ExportCommand {
 };
 struct VerifyCommand {};
 struct RetryCommand {};
+struct BackupCommand {
+  std::filesystem::path to;
+};
+struct UpgradeCommand {};
 struct WorkerCommand {  // what `run` starts; not for people
   int report_descriptor = 0;
   int threads = 1;
   std::optional<double> until;  // on the monotonic clock [s]
 };
 
-using Command =
-    std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest, CostRequest,
-                 ExportCommand, VerifyCommand, RetryCommand, SplitOptions, MergeOptions,
-                 RecallOptions, SubmitOptions, TaskOptions, TheoryOptions, WorkerCommand>;
+using Command = std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest,
+                             CostRequest, ExportCommand, VerifyCommand, RetryCommand, BackupCommand,
+                             UpgradeCommand, SplitOptions, MergeOptions, RecallOptions,
+                             SubmitOptions, TaskOptions, TheoryOptions, WorkerCommand>;
 
 struct CommandLine {
   std::filesystem::path store;

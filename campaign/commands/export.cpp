@@ -94,7 +94,7 @@ int export_state(const std::filesystem::path& path, std::int64_t job_id, std::os
   const schema::JobRow row = store.job(job_id);
   const auto state = newest_state(store, job_id, row.job);
   if (!state)
-    throw schema::StoreError(fmt::format(
+    throw schema::NameError(fmt::format(
         "{}: no state of job {} ({}) is stored yet; run it at least to its first "
         "checkpoint, tau = {}, with: {}",
         path.string(), job_id, describe(row.job), row.checkpoint_every, command_text("run", path)));

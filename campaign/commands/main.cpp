@@ -3,12 +3,16 @@
 
 #include <exception>
 #include <iostream>
+#include <new>
+#include <stdexcept>
 
 #include "campaign/accuracy/cost.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/log.hpp"
 #include "campaign/base/output.hpp"
 #include "campaign/base/printable.hpp"
+#include "campaign/base/signals.hpp"
+#include "campaign/commands/backup.hpp"
 #include "campaign/commands/command_line.hpp"
 #include "campaign/commands/export.hpp"
 #include "campaign/commands/plan.hpp"
@@ -17,6 +21,7 @@
 #include "campaign/commands/run.hpp"
 #include "campaign/commands/status.hpp"
 #include "campaign/commands/theory.hpp"
+#include "campaign/commands/upgrade.hpp"
 #include "campaign/commands/verify.hpp"
 #include "campaign/paper/figures.hpp"
 #include "campaign/run/host_lock.hpp"
@@ -79,6 +84,11 @@ struct CommandDispatcher {
   }
   int operator()(const TaskOptions& options) const { return task(options); }
   int operator()(const TheoryOptions& options) const { return theory(options); }
+  int operator()(const BackupCommand& command) const { return back_up(line.store, command.to); }
+  int operator()(const UpgradeCommand&) const {
+    const HostLock lock(line.store, false);
+    return upgrade(line.store);
+  }
   int operator()(const WorkerCommand& command) const {
     std::optional<Deadline> deadline;
     if (command.until) deadline = Deadline(Deadline::duration(*command.until));
@@ -88,7 +98,7 @@ struct CommandDispatcher {
 
 int failure(const std::exception& error, int exit_code) {
   complain("campaign: {}\n", error.what());
-  return exit_code;
+  return stop_signal() != 0 ? exit_signal_base + stop_signal() : exit_code;
 }
 
 int perform(int argc, char** argv) try {
@@ -99,17 +109,17 @@ int perform(int argc, char** argv) try {
   return std::visit(CommandDispatcher{line}, line.command);
 } catch (const schema::GridError& error) {
   return failure(error, exit_bad_input);
-} catch (const schema::DiskError& error) {
-  return failure(error, exit_failed);
-} catch (const schema::Damage& error) {
-  return failure(error, exit_failed);
-} catch (const schema::StoreError& error) {
-  // No store, not a store, not SQL: another was named or typed than was meant.
+} catch (const schema::NameError& error) {
+  return failure(error, exit_bad_input);
+} catch (const schema::QueryError& error) {
   return failure(error, exit_bad_input);
 } catch (const TheoryError& error) {
   return failure(error, exit_bad_input);
 } catch (const UnknownFigure& error) {
   return failure(error, exit_bad_input);
+} catch (const std::bad_alloc&) {
+  return failure(std::runtime_error("no memory is left; close other programs or run fewer workers"),
+                 exit_failed);
 } catch (const std::exception& error) {
   return failure(error, exit_failed);
 }

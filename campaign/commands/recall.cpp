@@ -23,8 +23,8 @@ const schema::Shard& shard_named(const std::vector<schema::Shard>& shards, const
   if (found != shards.end()) return *found;
   std::string names;
   for (const schema::Shard& shard : shards) names += (names.empty() ? "" : ", ") + shard.name;
-  throw schema::StoreError(fmt::format("{}: has lent nothing to '{}'; its shards: {}",
-                                       store.string(), word, names.empty() ? "none" : names));
+  throw schema::NameError(fmt::format("{}: has lent nothing to '{}'; its shards: {}",
+                                      store.string(), word, names.empty() ? "none" : names));
 }
 
 // What the shard has stored so far need not be computed again.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "campaign/accuracy/targets.hpp"
@@ -58,16 +60,50 @@ void print_limits(const RunOptions& options, const RoundEnd& ended, int exit_cod
         duration_text(cpu_seconds_of_ended_children()), duration_text(*options.cpu_budget));
 }
 
+// Who still uses the store keeps its log.
+void close_log(schema::Store& store) {
+  constexpr std::chrono::milliseconds patience{1000};
+  if (store.close_log(patience)) return;
+  say("Another program still uses {0}: its log, {0}-wal, belongs to it and stays until a later run "
+      "has ended\n",
+      store.path().string());
+}
+
+// The file at the store's path is no longer the one that this run has written. What that one holds
+// can still be read by this process, as long as it has it open.
+int rescue(const schema::Store& store, const std::string& what) {
+  std::filesystem::path saved;
+  for (int k = 1; saved.empty() || std::filesystem::exists(saved); ++k)
+    saved = fmt::format("{}.rescued-{}", store.path().string(), k);
+  complain("campaign: {} {} while the run was on\n", store.path().string(), what);
+  try {
+    store.back_up(saved);
+    complain(
+        "All that it held, and what this run computed, is in {}: look at it, then put it in its "
+        "place\n",
+        saved.string());
+  } catch (const schema::StoreError& error) {
+    complain(
+        "It could not be saved ({}). Lost is all that is in no copy of yours: it held {} "
+        "finished jobs\n",
+        error.what(), store.job_counts()[schema::Status::done]);
+  }
+  return exit_failed;
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
   note_stop_signals();
   schema::Store store = schema::Store::open(options.store);
   store.wait_for_locks_while(may_wait_for_locks);
+  store.open_log();
   const RoundEnd ended = run_rounds(store, options);
+  if (const auto what = store.displaced()) return rescue(store, *what);
   const int exit_code = conclusion(store.summary(), progress_of(store, store.targets()), ended);
   print_limits(options, ended, exit_code);
   print_outcome(store);
+  close_log(store);
   return exit_code;
 }
 

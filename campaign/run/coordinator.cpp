@@ -13,6 +13,7 @@
 
 #include "campaign/base/cpu_time.hpp"
 #include "campaign/base/job_text.hpp"
+#include "campaign/base/number_text.hpp"
 #include "campaign/base/signals.hpp"
 #include "campaign/run/abandoned.hpp"
 #include "campaign/run/display.hpp"
@@ -30,6 +31,9 @@ using Level = LogReport::Level;
 constexpr auto listen_for = 100ms;     // at most, until something else is looked after
 constexpr auto look_after_store = 1s;  // dead owners, progress of other runs
 constexpr auto grace = 5s;             // to leave in order; a transaction cut short is undone
+
+// A log that is copied each second stays below the largest commits of a second. [bytes]
+constexpr std::int64_t remarkable_log = std::int64_t{64} << 20;
 
 // Workers that die again and again without a job in hand will not do better next time.
 constexpr int hopeless = 5;
@@ -64,6 +68,7 @@ class Coordinator {
       look_after_time();
       if (!is_stopping()) start_workers();
       if (!is_stopping() && Clock::now() - looked_ >= look_after_store) {
+        look_after_file();
         look_after_abandoned();
         ledger_.refresh(store_);
       }
@@ -218,6 +223,23 @@ class Coordinator {
     }
   }
 
+  // Is the store still where it was, and does its log stay small?
+  void look_after_file() {
+    if (const auto what = store_.displaced()) {
+      display_.log(Level::error, fmt::format("{} {}; stopping", store_.path().string(), *what));
+      end_.store_error = true;
+      stop(SIGTERM);
+      return;
+    }
+    const schema::LogSize log = store_.copy_log();
+    if (log.is_copied || log.bytes < remarkable_log || has_warned_of_log_) return;
+    has_warned_of_log_ = true;
+    display_.log(Level::warning,
+                 fmt::format("{}-wal has grown to {} and grows on, since another program has been "
+                             "reading the store for long: end its query",
+                             store_.path().string(), bytes_text(static_cast<double>(log.bytes))));
+  }
+
   bool is_mine(const schema::Owner& owner) const {
     return std::any_of(workers_.begin(), workers_.end(),
                        [&](const auto& worker) { return worker && worker->identity() == owner; });
@@ -280,6 +302,7 @@ class Coordinator {
   std::map<std::int64_t, Kills> kills_;  // by job
   RoundEnd end_;
   LeaseWatch leases_;
+  bool has_warned_of_log_ = false;
   std::optional<Clock::time_point> stopping_since_, hurried_since_;
   Clock::time_point looked_;
 };

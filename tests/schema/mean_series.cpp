@@ -54,7 +54,7 @@ Realization series(const Job& job, int length, double scale = 1) {
 
 // A store in which these jobs were planned and finished in the order given.
 Store store_of(const std::vector<Realization>& realizations) {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   for (const Realization& one : realizations) store.add(plan({one.job}));
   equilibrate(store);
   std::vector<Claim> claims;

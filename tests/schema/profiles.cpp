@@ -29,7 +29,7 @@ Field velocity() {
 
 // A store in which these jobs are being worked on.
 struct Working {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   std::vector<Claim> claims;
 
   explicit Working(const std::vector<Job>& jobs) {

@@ -27,7 +27,7 @@ struct Working {
   Store store;
   Claim claim;
 
-  explicit Working(Store made = Store::create(":memory:"), double tau_max = 90)
+  explicit Working(Store made = Store::in_memory(), double tau_max = 90)
       : store(std::move(made)), claim(start(store, tau_max)) {}
 
   static Claim start(Store& store, double tau_max) {
@@ -48,7 +48,7 @@ Sample sample_at(double tau, double temperature = 0.5) {
 // ---- planning ---------------------------------------------------------------------------------
 
 TEST_CASE("a planned job is in the store with all its physics") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   Job job = cooling();
   job.sample_every = 0.5;
   job.seed = 9007199254740991;
@@ -69,7 +69,7 @@ TEST_CASE("a planned job is in the store with all its physics") {
 }
 
 TEST_CASE("a second plan adds nothing, a larger one the difference") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   store.add(plan({cooling(0.8)}));
   CHECK(store.add(plan({cooling(0.8)})) == std::vector{Outcome::unchanged, Outcome::unchanged});
   const auto larger = plan({cooling(0.8), cooling(0.9)});
@@ -81,7 +81,7 @@ TEST_CASE("a second plan adds nothing, a larger one the difference") {
 }
 
 TEST_CASE("tau_max grows and never shrinks") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   store.add(plan({cooling()}, 90));
   CHECK(store.preview(plan({cooling()}, 120))[1] == Outcome::extended);
   CHECK(store.add(plan({cooling()}, 120))[1] == Outcome::extended);
@@ -112,7 +112,7 @@ TEST_CASE("a job extended while it runs is pending when its worker is done with 
 }
 
 TEST_CASE("a plan that fails adds nothing") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   auto without_start = plan({cooling(0.8, 1), cooling(0.8, 2)});
   without_start.erase(without_start.begin() + 2);
   CHECK_THROWS_AS(store.add(without_start), std::logic_error);
@@ -120,7 +120,7 @@ TEST_CASE("a plan that fails adds nothing") {
 }
 
 TEST_CASE("jobs are listed by kind, physics and seed, however they were planned") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   store.add(plan({cooling(0.9, 2), cooling(0.8, 10), cooling(0.9, 1), cooling(0.8, 9)}));
   std::vector<std::pair<std::optional<double>, std::uint64_t>> order;
   for (const JobRow& row : store.jobs()) order.emplace_back(row.job.e, row.job.seed);
@@ -129,7 +129,7 @@ TEST_CASE("jobs are listed by kind, physics and seed, however they were planned"
 }
 
 TEST_CASE("a target that is planned again changes its error, not its pilot runs") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   Target target{.series = series_identity(cooling()),
                 .quantity = "a2",
                 .tau_from = 5,
@@ -148,7 +148,7 @@ TEST_CASE("a target that is planned again changes its error, not its pilot runs"
 }
 
 TEST_CASE("what was expected of a target first is kept, for each standard error") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   Target target{
       .series = series_identity(cooling()), .quantity = "a2", .se = 1e-3, .pilots = {1, 2, 3}};
   store.add(std::vector{target});
@@ -164,7 +164,7 @@ TEST_CASE("what was expected of a target first is kept, for each standard error"
 }
 
 TEST_CASE("a prediction stands beside its outcome") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   auto jobs = plan({cooling(0.8, 1), cooling(0.8, 2), cooling(0.9, 1)});
   store.add(jobs);
   const Target target{
@@ -188,7 +188,7 @@ TEST_CASE("a prediction stands beside its outcome") {
 // ---- claiming ---------------------------------------------------------------------------------
 
 TEST_CASE("equilibrations come first, cooling when its own is done") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   store.add(plan({cooling(0.8, 1), cooling(0.8, 2)}));
   const auto one = store.claim(me, "test"), other = store.claim(me, "test");
   REQUIRE(one);
@@ -206,7 +206,7 @@ TEST_CASE("equilibrations come first, cooling when its own is done") {
 }
 
 TEST_CASE("a failed equilibration blocks the jobs that need it, until it is retried") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   store.add(plan({cooling(0.8), cooling(0.9)}));
   for (int i = 0; i < max_attempts; ++i) store.fail(store.claim(me, "test")->lease, "jammed");
   CHECK_FALSE(store.claim(me, "test"));
@@ -218,7 +218,7 @@ TEST_CASE("a failed equilibration blocks the jobs that need it, until it is retr
 }
 
 TEST_CASE("a job is computed again from its start unless a worker holds it") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   store.add(plan({cooling(0.8)}));
   const auto claim = store.claim(me, "test");
   REQUIRE(claim);
@@ -243,7 +243,7 @@ TEST_CASE("a job is computed again from its start unless a worker holds it") {
 }
 
 TEST_CASE("a job that ends from its start without a new state leaves no damaged one behind") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   store.add(plan({cooling(0.8)}));
   equilibrate(store);
   const Claim claim = *store.claim(me, "test");
@@ -256,7 +256,7 @@ TEST_CASE("a job that ends from its start without a new state leaves no damaged 
 }
 
 TEST_CASE("the series of a job is its identity with the seed 0, in SQL as in code") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   Job disks = cooling(0.85, 7);
   disks.d = 2;
   disks.effects = R"({"shuffle":{"every":0.1}})";
@@ -266,7 +266,7 @@ TEST_CASE("the series of a job is its identity with the seed 0, in SQL as in cod
 }
 
 TEST_CASE("what takes longest is claimed first") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   auto jobs = plan({cooling(0.7), cooling(0.8), cooling(0.9)});
   jobs[1].expected_cpu_seconds = 10;
   jobs[2].expected_cpu_seconds = 30;
@@ -277,7 +277,7 @@ TEST_CASE("what takes longest is claimed first") {
 }
 
 TEST_CASE("a claim tells where the job stands and marks who holds it") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   auto jobs = plan({cooling()});
   jobs[1].checkpoint_every = 20;
   store.add(jobs);
@@ -492,7 +492,7 @@ TEST_CASE("a new checkpoint gives a job all its attempts back") {
 }
 
 TEST_CASE("a summary counts jobs and time") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   auto jobs = plan({cooling(0.8), cooling(0.9)});
   for (Planned& planned : jobs) planned.expected_cpu_seconds = 100;
   store.add(jobs);
@@ -574,7 +574,7 @@ TEST_CASE("a disk that takes no more undoes the commit, says so, and leaves the 
 }
 
 TEST_CASE("a gas without e is stored as it is, and averaged") {
-  Store store = Store::create(":memory:");
+  Store store = Store::in_memory();
   std::vector<Job> jobs{cooling(0.8, 1), cooling(0.8, 2)};
   for (Job& job : jobs) {
     job.e = std::nullopt;

@@ -311,7 +311,7 @@ TEST_CASE("cost: where runs end before their tau_c the mean of the others is no 
 
 TEST_CASE("cost: writes a table, a CSV of whole rows, and pictures") {
   const TemporaryFolder folder;
-  schema::Store store = schema::Store::create(":memory:");
+  schema::Store store = schema::Store::in_memory();
   add_finished(store, 0.9, 0.4, 1000, 8, 20);
   add_finished(store, 0.9, 0.4, 4000, 4, 20);
   std::ostringstream report;
@@ -338,7 +338,7 @@ TEST_CASE("cost: writes a table, a CSV of whole rows, and pictures") {
 
 TEST_CASE("cost: advice for the error asked for") {
   const TemporaryFolder folder;
-  schema::Store store = schema::Store::create(":memory:");
+  schema::Store store = schema::Store::in_memory();
   add_finished(store, 0.9, 0.4, 1000, 8, 20);
   std::ostringstream report;
   cost(store, {.out = folder.path(), .targets = {{.measure = Measure::a2, .error = 2e-4}}}, report);
@@ -347,7 +347,7 @@ TEST_CASE("cost: advice for the error asked for") {
 
 TEST_CASE("cost: an error of what no run reaches gets an answer") {
   const TemporaryFolder folder;
-  schema::Store store = schema::Store::create(":memory:");
+  schema::Store store = schema::Store::in_memory();
   add_finished(store, 0.9, 0.4, 1000, 8, 20);
   std::ostringstream report;
   cost(
@@ -364,7 +364,7 @@ TEST_CASE("cost: an error of what no run reaches gets an answer") {
 
 TEST_CASE("cost: an empty store says what to plan") {
   const TemporaryFolder folder;
-  const schema::Store store = schema::Store::create(":memory:");
+  const schema::Store store = schema::Store::in_memory();
   std::ostringstream report;
   CHECK(cost(store, {.out = folder.path() / "cost", .targets = {}}, report) == 1);
   CHECK(report.str().find("\"seeds\"") != std::string::npos);
@@ -391,7 +391,7 @@ TEST_CASE("cost: targets are a quantity and an error") {
 
 TEST_CASE("cost: gases that differ in their effects alone are pictures of their own") {
   const TemporaryFolder folder;
-  schema::Store store = schema::Store::create(":memory:");
+  schema::Store store = schema::Store::in_memory();
   for (const char* effects : {"{}", R"({"shuffle":{"every":1.0}})"})
     add_finished(store,
                  {.e = 0.9,

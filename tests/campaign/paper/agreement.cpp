@@ -25,7 +25,7 @@ using namespace haff::campaign;
 namespace {
 
 std::vector<Comparison> of_theory() {
-  auto store = schema::Store::create(":memory:");
+  auto store = schema::Store::in_memory();
   add_finished(store, 0.80, 0.4, 100'000, 3, 180);
   add_finished(store, 0.85, 0.4, 100'000, 3, 100);
   add_finished(store, 0.90, 0.4, 100'000, 3, 160);
@@ -140,7 +140,7 @@ TEST_CASE("agreement: each claim on velocities holds for theory, and fails for t
 }
 
 TEST_CASE("agreement: a gas without correlations, or whose correlations do not scale, fails") {
-  auto store = schema::Store::create(":memory:");
+  auto store = schema::Store::in_memory();
   add_finished_with_profiles(store, 0.8, 0.4, 200'000, 2, 60, 10, {});
   const Averages averages = read_averages(store);
   const auto holds = [&](const std::string& claim, const Averages& of) {
@@ -164,7 +164,7 @@ TEST_CASE("agreement: a gas without correlations, or whose correlations do not s
 }
 
 TEST_CASE("agreement: no data, no claims") {
-  CHECK(agreement(read_averages(schema::Store::create(":memory:"))).empty());
+  CHECK(agreement(read_averages(schema::Store::in_memory())).empty());
 }
 
 TEST_CASE("agreement: a table has a row a claim, and nothing where there is nothing") {

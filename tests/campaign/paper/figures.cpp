@@ -21,7 +21,7 @@ using namespace haff::campaign;
 namespace {
 
 schema::Store first_campaign(int seeds = 2) {
-  auto store = schema::Store::create(":memory:");
+  auto store = schema::Store::in_memory();
   add_finished(store, 0.8, 0.4, 2000, seeds, 90);
   add_finished(store, 0.9, 0.4, 2000, seeds, 180);
   add_finished(store, 0.85, 0.2, 2000, seeds, 40);
@@ -92,7 +92,7 @@ TEST_CASE("figures: only those asked for are drawn") {
 
 TEST_CASE("figures: a figure asked for whose data is missing is named, with a grid that gives it") {
   const TemporaryFolder folder;
-  auto store = schema::Store::create(":memory:");
+  auto store = schema::Store::in_memory();
   add_finished(store, 0.95, 0.4, 2000, 1, 20);  // does not reach tau_c
   const auto drawn = draw(store, folder.path(), {1, 2});
   CHECK(drawn.code == 1);
@@ -106,7 +106,7 @@ TEST_CASE("figures: a figure asked for whose data is missing is named, with a gr
 
 TEST_CASE("figures: an empty store gives none, and says what to plan") {
   const TemporaryFolder folder;
-  const auto drawn = draw(schema::Store::create(":memory:"), folder.path());
+  const auto drawn = draw(schema::Store::in_memory(), folder.path());
   CHECK(drawn.code == 1);
   CHECK(drawn.report.find("plan, for example") != std::string::npos);
 }
@@ -203,7 +203,7 @@ TEST_CASE("figures: a folder that cannot be made is an error that names it") {
 }
 
 TEST_CASE("figure 11: a decay rate belongs to the middle of its interval") {
-  auto store = schema::Store::create(":memory:");
+  auto store = schema::Store::in_memory();
   add_finished(store, 0.8, 0.4, 2000, 1, 20, 2);
   const auto plot = figure_11(read_averages(store));
   REQUIRE(plot);
@@ -264,7 +264,7 @@ TEST_CASE("figure 7: smoothed over the paper's windows, against tau/tau_c") {
 }
 
 TEST_CASE("figure 14: every shuffled series is a curve of its own") {
-  auto store = schema::Store::create(":memory:");
+  auto store = schema::Store::in_memory();
   for (const char* effects : {"{}", R"({"shuffle":{"every":1.0}})", R"({"shuffle":{"every":5.0}})"})
     add_finished(store,
                  {.e = 0.85,

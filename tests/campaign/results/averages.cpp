@@ -17,7 +17,7 @@ using namespace haff::campaign;
 namespace {
 
 schema::Store empty_store() {
-  return schema::Store::create(":memory:");
+  return schema::Store::in_memory();
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using namespace haff::campaign;
 namespace {
 
 MeanSeries synthetic(double e, int seeds, double tau_max, std::uint32_t particles = 500'000) {
-  auto store = schema::Store::create(":memory:");
+  auto store = schema::Store::in_memory();
   add_finished(store, e, 0.4, particles, seeds, tau_max);
   return read_averages(store).series.front();
 }

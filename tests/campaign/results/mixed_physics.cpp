@@ -11,7 +11,7 @@ namespace {
 
 // Two realizations of one series, computed with these physics versions.
 schema::Store two_realizations(int first, int second) {
-  auto store = schema::Store::create(":memory:");
+  auto store = schema::Store::in_memory();
   store.add(schema::plan({schema::cooling(0.8, 1), schema::cooling(0.8, 2)}));
   schema::equilibrate(store);
   for (const int physics_version : {first, second}) {

@@ -1,0 +1,4 @@
+-- The store, version 16: one plain file when nothing runs on it.
+--
+-- Its tables are those of version 15. What is new is how the file is left: without a log, and not
+-- prepared for one, so that a copy that was made without its log is known as such.

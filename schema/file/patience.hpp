@@ -1,0 +1,13 @@
+// How long a connection waits for others, and that it ends when it is asked to.
+#pragma once
+
+#include <sqlite3.h>
+
+namespace haff::schema {
+
+// Installs SQLite's busy and progress handlers. A lock is waited for as long as busy_timeout and,
+// if it is given, as `may_wait` allows, which is asked some times a second. Two seconds after
+// `may_wait` first said no, a statement that still works, however long it would take, ends as well.
+void be_patient(sqlite3* handle, bool (*may_wait)() = nullptr);
+
+}  // namespace haff::schema

@@ -1,0 +1,96 @@
+// The store as a file: named, copied, moved and deleted by people while the program uses it.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+#include "cli/program.hpp"
+
+using namespace haff::tests;
+using namespace std::chrono_literals;
+
+namespace {
+
+// Some seconds of work.
+constexpr const char* grid =
+    R"({"e": 0.9, "n": 0.4, "N": 1000, "seeds": 4, "tau_max": 1500, "sample_every": 10})";
+constexpr const char* short_grid = R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 2, "tau_max": 5})";
+
+void plan(const Folder& folder, const char* text) {
+  folder.write("grid.json", text);
+  REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
+}
+
+void wait_for_work(const Folder& folder) {
+  while (number(folder, "SELECT max(tau) FROM jobs WHERE kind = 'cooling'") == 0) sleep_for(5ms);
+}
+
+// What becomes of a run from under which the store is taken by this command.
+void check_vanished(const std::string& command, const std::string& what) {
+  CAPTURE(command);
+  const Folder folder;
+  plan(folder, grid);
+  shell(folder, "cp campaign.db old.db");
+  Program run(folder, {"run", "--workers", "1"});
+  wait_for_work(folder);
+  shell(folder, command);
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome outcome = run.wait();
+  CHECK(std::chrono::steady_clock::now() - start < 20s);
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.err.find("campaign.db " + what) != std::string::npos);
+  REQUIRE(outcome.err.find("campaign.db.rescued-1") != std::string::npos);
+  const Outcome saved = campaign(folder, {"verify", "--store", "campaign.db.rescued-1"});
+  CHECK(saved.exit_code == 0);
+  const Outcome samples = campaign(folder, {"query", "SELECT count(*) > 10 FROM samples",
+                                            "--format", "csv", "--store", "campaign.db.rescued-1"});
+  CHECK(samples.out.find("\n1") != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("store file: deleted, moved or replaced under a run, it is noticed and saved") {
+  check_vanished("rm campaign.db*", "was deleted or moved away");
+  check_vanished("mv campaign.db other.db", "was deleted or moved away");
+  check_vanished("mv old.db campaign.db", "was replaced by another file");
+}
+
+TEST_CASE("store file: a backup during a run is sound and can be run") {
+  const Folder folder;
+  plan(folder, grid);
+  Program run(folder, {"run", "--workers", "1"});
+  wait_for_work(folder);
+  CHECK(campaign(folder, {"backup", "copy.db"}).exit_code == 0);
+  CHECK(campaign(folder, {"verify", "--store", "copy.db"}).exit_code == 0);
+  CHECK(campaign(folder, {"run", "--store", "copy.db", "--max-time", "3s"}).exit_code != 1);
+  const Outcome again = campaign(folder, {"backup", "copy.db"});
+  CHECK(again.exit_code == 2);
+  CHECK(again.err.find("exists already") != std::string::npos);
+  run.signal(SIGTERM);
+  CHECK(run.wait().exit_code == 143);
+}
+
+TEST_CASE("store file: after a run no log is beside it") {
+  const Folder folder;
+  plan(folder, short_grid);
+  CHECK(campaign(folder, {"run"}).exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(folder / "campaign.db-wal"));
+  CHECK_FALSE(std::filesystem::exists(folder / "campaign.db-shm"));
+}
+
+TEST_CASE("store file: what is no file is bad input, what may not be written is not") {
+  const Folder folder;
+  folder.write("grid.json", short_grid);
+  shell(folder, "mkfifo pipe; mkdir folder");
+  for (const char* name : {"", "pipe", "folder", "c/", "no/c.db"}) {
+    CAPTURE(std::string(name));
+    CHECK(campaign(folder, {"plan", "grid.json", "--store", name}).exit_code == 2);
+    CHECK(campaign(folder, {"status", "--store", name}).exit_code == 2);
+  }
+  plan(folder, short_grid);
+  shell(folder, "ln campaign.db second.db");
+  CHECK(campaign(folder, {"run"}).exit_code == 1);
+  CHECK(campaign(folder, {"status"}).exit_code == 0);
+}

@@ -1,0 +1,91 @@
+// The name of a store is a path to one file, whatever it looks like.
+#include "schema/file/name.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <string>
+
+#include "../fixture.hpp"
+
+using namespace haff::schema;
+
+namespace {
+
+// In a folder of its own, where names are tried as a user types them.
+class Here {
+ public:
+  Here() { std::filesystem::current_path(folder_.path()); }
+  ~Here() { std::filesystem::current_path(before_); }
+  Here(const Here&) = delete;
+  Here& operator=(const Here&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+  std::size_t files() const {
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(folder_.path()))
+      ++count;
+    return count;
+  }
+
+ private:
+  std::filesystem::path before_ = std::filesystem::current_path();
+  TemporaryFolder folder_;
+};
+
+std::string refusal(const std::filesystem::path& name) {
+  std::string said;
+  try {
+    Store::create(name);
+    return "not refused";
+  } catch (const NameError& error) {
+    said = error.what();
+  }
+  CHECK_THROWS_AS(Store::open(name), NameError);
+  CHECK_THROWS_AS(Reader{name}, NameError);
+  return said;
+}
+
+}  // namespace
+
+TEST_CASE("names that SQLite gives a meaning are paths to files") {
+  const Here here;
+  for (const char* name : {"file:c.db", "file:c.db?mode=memory",
+                           ":memory:", "file::memory:", "a#b?c%20.db", "c d.db"}) {
+    CAPTURE(std::string(name));
+    Store::create(name).add(plan({cooling()}));
+    CHECK(std::filesystem::is_regular_file(here / name));
+    CHECK(Reader(name).jobs().size() == 2);
+    CHECK(Store::open(name).jobs().size() == 2);
+  }
+  CHECK(here.files() == 6);
+}
+
+TEST_CASE("two slashes at the beginning are one") {
+  const Here here;
+  const std::string name = "/" + (here / "c.db").string();
+  Store::create(name).add(plan({cooling()}));
+  CHECK(Reader(name).jobs().size() == 2);
+  CHECK(std::filesystem::exists(here / "c.db"));
+}
+
+TEST_CASE("what can be no store is refused by its name, and nothing is left behind") {
+  const Here here;
+  const std::string next = "; name a store with --store FILE";
+  std::filesystem::create_directory("folder");
+  REQUIRE(mkfifo("pipe", 0600) == 0);
+  std::filesystem::create_symlink("nowhere", "link");
+  CHECK(refusal("") == "the name of the store is empty; give a file to --store");
+  CHECK(refusal("c/") == "c/: names a folder" + next);
+  CHECK(refusal("folder") == "folder: is a folder" + next);
+  CHECK(refusal("folder/") == "folder/: is a folder" + next);
+  CHECK(refusal("pipe") == "pipe: is a pipe" + next);
+  CHECK(refusal("/dev/null") == "/dev/null: is a device" + next);
+  CHECK(refusal("link") == "link: is a link to a file that is not there" + next);
+  CHECK(refusal("no/c.db").find("its folder") != std::string::npos);
+  CHECK(refusal(std::string(200, 'x') + std::string(200, 'y')).find("File name too long") !=
+        std::string::npos);
+  CHECK(here.files() == 3);
+}
