@@ -15,8 +15,9 @@ set(plot base)
 set(accuracy planning results plot)
 set(paper results plot)
 set(cluster run planning)
-set(commands run accuracy paper cluster)
-set(folders base state job run planning results plot accuracy paper cluster commands)
+set(report accuracy cluster)
+set(commands run accuracy paper cluster report)
+set(folders base state job run planning results plot accuracy paper cluster report commands)
 
 # The includes "<prefix>NAME/..." of a file, as a list of NAME.
 function(included_folders file prefix result)

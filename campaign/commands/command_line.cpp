@@ -202,6 +202,16 @@ Exit code 1 if no cooling run is done: it then says what to plan.)"));
   return command;
 }
 
+CLI::App* add_report(CLI::App& app, ReportOptions& options) {
+  auto* command = app.add_subcommand("report", "The store as a page to look at, in one file");
+  command->add_option("--out", options.out, "Folder to write report.html to")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->footer(examples(R"(  campaign report                  writes report/report.html
+  campaign report --out /tmp       open it in any browser, or mail it: it needs no network)"));
+  return command;
+}
+
 CLI::App* add_verify(CLI::App& app) {
   auto* command =
       app.add_subcommand("verify", "Check the store: SQLite, checkpoints, physics, completeness");
@@ -509,6 +519,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   SubmitOptions submit;
   TaskOptions task;
   TheoryOptions theory;
+  ReportOptions report;
   WorkerCommand worker;
   const CLI::App* plan_command = add_plan(app, plan);
   const CLI::App* run_command = add_run(app, run);
@@ -527,6 +538,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   const CLI::App* submit_command = add_submit(app, submit);
   const CLI::App* task_command = add_task(app, task);
   const CLI::App* theory_command = add_theory(app, theory);
+  const CLI::App* report_command = add_report(app, report);
   const CLI::App* worker_command = add_worker(app, worker);
   std::string kind;
   const CLI::App* document_command = add_document(app, kind);
@@ -546,7 +558,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   }
 
   line.store = plan.store = run.store = split.store = merge.store = recall.store =
-      submit.cluster.store = store;
+      submit.cluster.store = report.store = store;
   if (plan_command->parsed()) line.command = plan;
   if (run_command->parsed()) line.command = run;
   if (status_command->parsed()) line.command = status;
@@ -564,6 +576,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   if (submit_command->parsed()) line.command = submit;
   if (task_command->parsed()) line.command = task;
   if (theory_command->parsed()) line.command = theory;
+  if (report_command->parsed()) line.command = report;
   if (worker_command->parsed()) line.command = worker;
   return line;
 }

@@ -12,6 +12,7 @@
 #include "campaign/commands/plan.hpp"
 #include "campaign/commands/query.hpp"
 #include "campaign/commands/recall.hpp"
+#include "campaign/commands/report.hpp"
 #include "campaign/commands/run.hpp"
 #include "campaign/commands/split.hpp"
 #include "campaign/commands/submit.hpp"
@@ -42,10 +43,11 @@ struct WorkerCommand {  // what `run` starts; not for people
   std::optional<double> until;  // on the monotonic clock [s]
 };
 
-using Command = std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest,
-                             CostRequest, ExportCommand, VerifyCommand, RetryCommand, BackupCommand,
-                             UpgradeCommand, SplitOptions, MergeOptions, RecallOptions,
-                             SubmitOptions, TaskOptions, TheoryOptions, WorkerCommand>;
+using Command =
+    std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest, CostRequest,
+                 ExportCommand, VerifyCommand, RetryCommand, BackupCommand, UpgradeCommand,
+                 SplitOptions, MergeOptions, RecallOptions, SubmitOptions, TaskOptions,
+                 TheoryOptions, ReportOptions, WorkerCommand>;
 
 struct CommandLine {
   std::filesystem::path store;

@@ -17,6 +17,7 @@
 #include "campaign/commands/export.hpp"
 #include "campaign/commands/plan.hpp"
 #include "campaign/commands/query.hpp"
+#include "campaign/commands/report.hpp"
 #include "campaign/commands/retry.hpp"
 #include "campaign/commands/run.hpp"
 #include "campaign/commands/status.hpp"
@@ -89,6 +90,7 @@ struct CommandDispatcher {
     const HostLock lock(line.store, false);
     return upgrade(line.store);
   }
+  int operator()(const ReportOptions& options) const { return report(options); }
   int operator()(const WorkerCommand& command) const {
     std::optional<Deadline> deadline;
     if (command.until) deadline = Deadline(Deadline::duration(*command.until));

@@ -90,6 +90,7 @@ TEST_CASE("hostile store: text of every column, by every way out") {
          {std::vector<std::string>{"figures", "--only", "1,8"},
           {"cost"},
           {"status"},
+          {"report"},
           {"verify"},
           {"query", "SELECT * FROM " + column.table},
           {"export", "2"}}) {
@@ -104,7 +105,9 @@ TEST_CASE("hostile store: text of every column, by every way out") {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "")) {
       if (entry.path().extension() != ".svg" && entry.path().extension() != ".html") continue;
       const std::string text = text_of(entry.path());
-      CHECK(text.find("<script") == std::string::npos);
+      // The page of `report` has scripts of its own.
+      CHECK(text.find(entry.path().filename() == "report.html" ? "<script>alert" : "<script") ==
+            std::string::npos);
       CHECK(text.find(" onload='") == std::string::npos);
     }
   }

@@ -1,0 +1,11 @@
+// Bytes as text, RFC 4648: how a page of text carries a file.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace haff::campaign {
+
+std::string base64(std::span<const std::byte> bytes);
+
+}  // namespace haff::campaign

@@ -1,0 +1,27 @@
+// How many processors a campaign kept busy, over time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+// Processors at work on one host. busy[k] holds from time[k] to time[k + 1], and is 0 after the
+// last. Times are seconds since 1970, UTC.
+struct Occupancy {
+  std::string host;
+  std::vector<double> time, busy;
+};
+
+// From the start, the end and the CPU time of each job: a store keeps no more. A job's CPU time is
+// spread evenly from its first start to its end, or to its last sign of life, so that a job which
+// was interrupted for a night counts for as little as it did in that time. By host, in their order.
+std::vector<Occupancy> occupancy(const std::vector<schema::JobRow>& jobs,
+                                 const std::vector<schema::RunningJob>& running);
+
+// "2003-09-05T12:00:00.000Z" as seconds since 1970; NaN if it is no such text.
+double seconds_of(const std::string& utc);
+
+}  // namespace haff::campaign

@@ -1,0 +1,28 @@
+// The page of `campaign report`: one HTML file that needs nothing else, neither a network nor a
+// program beside the browser.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+// The program was built without the libraries of the page. The message says what to install.
+struct PageMissing : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// What changes while a run is on, as JSON: where the campaign stands (overview_json), and of what
+// the page's first part is made.
+std::string page_data(const schema::Reader& store);
+
+// Changes when the averaged tables of the store do.
+std::string averages_version(const schema::Reader& store);
+
+// The whole page. `is_served`: it asks its server for page_data again and again.
+// Throws PageMissing.
+std::string report_page(const schema::Reader& store, bool is_served);
+
+}  // namespace haff::campaign

@@ -1,0 +1,214 @@
+// Averages over realizations against τ, time or x: a curve for each gas.
+
+// What the tables hold, with its symbol; others appear under their column's name.
+const quantityLabels = {
+  temperature: "T / E(0), granular temperature", gamma_ratio: "γ / γ₀, decay rate",
+  collision_rate: "ω, collision rate", pressure: "p, pressure [E(0) σ⁻ᵈ]",
+  a2: "a₂", a3: "a₃", a4: "a₄", a5: "a₅", a6: "a₆",
+  correlation_trace: "Tr G⁺(0)", largest_cluster: "largest cluster, part of the particles",
+  rotational_temperature: "temperature of rotation [E(0)]",
+  temperature_1: "temperature of species 1 [E(0)]", temperature_2: "temperature of species 2 [E(0)]",
+  rho: "ρ(c), velocity distribution", G_parallel: "G∥(r)", G_perpendicular: "G⊥(r)", S: "S(k)", time: "t, time",
+};
+const profileX = {rho: "c = v / v₀", G_parallel: "r / σ", G_perpendicular: "r / σ", S: "k σ"};
+const ofInterval = new Set(["gamma_ratio", "collision_rate", "pressure"]);  // before its τ
+const gasNames = ["d", "e", "n", "particles", "equilibrate", "sample_every", "effects"];
+const filterLabels = {d: "d", e: "e", n: "n", particles: "N", equilibrate: "equilibrate",
+  sample_every: "sample every", effects: "effects"};
+
+class Curves {
+  constructor(database) {
+    this.database = database;
+    this.off = new Map();  // by name of a parameter: the values that are switched off
+    this.chosen = {quantity: null, x: "tau", tau: null, logX: false, logY: false, errors: true};
+    this.chart = new Chart(byId("curve-chart"), "Averages over realizations",
+      {height: 460, onToggle: () => {}});
+    this.chart.tools.append(make("button", {type: "button", onclick: () => this.save()}, "Download CSV"));
+  }
+
+  // Everything again from the tables; choices stay where they still mean something.
+  async refresh() {
+    const {rows: columns} = await this.database.query(
+      "SELECT 'mean_series', name FROM pragma_table_info('mean_series') UNION ALL " +
+      "SELECT 'mean_temperatures', name FROM pragma_table_info('mean_temperatures')");
+    this.quantities = [];
+    for (const table of ["mean_series", "mean_temperatures"]) {
+      const names = columns.filter(([of]) => of === table).map(([, name]) => name)
+        .filter((name) => columns.some(([of, other]) => of === table && other === name + "_se"))
+        .filter((name) => !this.quantities.some((known) => known.name === name));
+      if (names.length === 0) continue;
+      const {rows: [counts]} = await this.database.query(
+        `SELECT ${names.map((name) => `count(${name})`).join(", ")} FROM ${table}`);
+      names.forEach((name, k) => { if (counts[k] > 0) this.quantities.push({name, table}); });
+    }
+    const profiles = await this.database.query("SELECT DISTINCT name FROM mean_profiles ORDER BY name");
+    for (const [name] of profiles.rows) this.quantities.push({name, table: "mean_profiles"});
+    const order = Object.keys(quantityLabels);
+    const placeOf = ({name}) => order.includes(name) ? order.indexOf(name) : order.length;
+    this.quantities.sort((a, b) => placeOf(a) - placeOf(b));
+    if (!this.quantities.some(({name}) => name === this.chosen.quantity)) {
+      this.chosen.quantity = this.quantities[0]?.name ?? null;
+      this.chosen.logY = this.chosen.quantity === "temperature";
+    }
+    await this.show();
+  }
+
+  quantity() {
+    return this.quantities.find(({name}) => name === this.chosen.quantity);
+  }
+
+  async show() {
+    const quantity = this.quantity();
+    if (!quantity) {
+      byId("curve-choices").replaceChildren(make("p", {class: "quiet"},
+        "No cooling run is done yet: averages are of finished runs."));
+      byId("curve-filters").replaceChildren();
+      this.chart.draw({curves: [], x: {label: ""}, y: {label: ""}});
+      return;
+    }
+    this.taus = [];
+    if (quantity.table === "mean_profiles") {
+      const {rows} = await this.database.query(
+        "SELECT DISTINCT tau FROM mean_profiles WHERE name = ? ORDER BY tau", {parameters: [quantity.name]});
+      this.taus = rows.map(([tau]) => tau);
+      if (!this.taus.includes(this.chosen.tau)) this.chosen.tau = this.taus[this.taus.length - 1];
+    }
+    this.gases = await this.read(quantity);
+    this.showChoices(quantity);
+    this.showFilters();
+    this.draw();
+  }
+
+  // [{d, e, ..., x, y, se, realizations}], a gas each.
+  async read({name, table}) {
+    const isProfile = table === "mean_profiles";
+    const time = table === "mean_series" ? "time" : "NULL";
+    const {rows} = await this.database.query(isProfile
+      ? `SELECT ${gasNames.join(", ")}, x, NULL, value, value_se, realizations FROM mean_profiles ` +
+        "WHERE name = ? AND tau = ? AND value IS NOT NULL ORDER BY d, n, particles, e, effects, equilibrate, sample_every, x"
+      : `SELECT ${gasNames.join(", ")}, tau, ${time}, "${name}", "${name}_se", realizations FROM ${table} ` +
+        `WHERE "${name}" IS NOT NULL ORDER BY d, n, particles, e, effects, equilibrate, sample_every, tau`,
+      {parameters: isProfile ? [name, this.chosen.tau] : null});
+    const gases = new Map();
+    for (const row of rows) {
+      const key = JSON.stringify(row.slice(0, gasNames.length));
+      if (!gases.has(key))
+        gases.set(key, {key, ...Object.fromEntries(gasNames.map((gas, k) => [gas, row[k]])),
+          tau: [], time: [], y: [], se: [], realizations: []});
+      const gas = gases.get(key);
+      const [x, t, y, se, realizations] = row.slice(gasNames.length);
+      gas.tau.push(ofInterval.has(name) ? x - gas.sample_every / 2 : x);
+      gas.time.push(t);
+      gas.y.push(y);
+      gas.se.push(se);
+      gas.realizations.push(realizations);
+    }
+    return [...gases.values()];
+  }
+
+  // x of a gas's points, by what is chosen.
+  xOf(gas) {
+    if (this.chosen.x === "time" && gas.time[0] !== null) return gas.time;
+    if (this.chosen.x === "haff") {
+      const rate = gas.e === null ? NaN : (1 - gas.e * gas.e) / gas.d;
+      return gas.tau.map((tau) => rate * tau);
+    }
+    return gas.tau;
+  }
+
+  showChoices({name, table}) {
+    const isProfile = table === "mean_profiles";
+    const change = (key, value, readAgain = false) => {
+      this.chosen[key] = value;
+      this.chart.zoomed = null;
+      readAgain ? this.show() : this.draw();
+    };
+    const box = (key, label) => make("label", {}, make("input", {type: "checkbox",
+      checked: this.chosen[key], onchange: (event) => change(key, event.target.checked)}), " " + label);
+    const select = (label, options, chosen, onchange) => make("label", {}, label + " ",
+      make("select", {onchange: (event) => onchange(event.target.value)}, ...options.map(([value, text]) =>
+        make("option", {value, selected: String(value) === String(chosen)}, text))));
+    byId("curve-choices").replaceChildren(...[
+      select("Show", this.quantities.map((one) => [one.name, quantityLabels[one.name] ?? one.name]), name,
+        (value) => {
+          this.chosen.logY = value === "temperature" || value === "rho";
+          change("quantity", value, true);
+        }),
+      isProfile
+        ? select("at τ", this.taus.map((tau) => [tau, numberText(tau)]), this.chosen.tau,
+          (value) => change("tau", Number(value), true))
+        : select("against", [["tau", "τ"], ["haff", "2γ₀τ"], ...table === "mean_series" && name !== "time" ? [["time", "t"]] : []],
+          this.chosen.x, (value) => change("x", value)),
+      box("logX", "log x"), box("logY", "log y"), box("errors", "errors"),
+    ]);
+  }
+
+  // A box for each value of a parameter that has more than one.
+  showFilters() {
+    const parts = [];
+    for (const name of gasNames) {
+      const values = [...new Set(this.gases.map((gas) => gas[name]))];
+      if (values.length < 2 && !["e", "n", "particles"].includes(name)) continue;
+      values.sort((a, b) => typeof a === "number" ? a - b : String(a).localeCompare(String(b)));
+      if (!this.off.has(name)) this.off.set(name, new Set());
+      const off = this.off.get(name);
+      const text = (value) => name === "particles" ? countText(value) : value === null ? "none"
+        : value === "{}" ? "none" : numberText(value);
+      const boxes = values.map((value) => make("input", {type: "checkbox", checked: !off.has(value),
+        onchange: (event) => {
+          event.target.checked ? off.delete(value) : off.add(value);
+          this.draw();
+        }}));
+      const all = (on) => make("button", {type: "button", "aria-label": `${on ? "All" : "No"} ${filterLabels[name]}`,
+        onclick: () => {
+          values.forEach((value, k) => {
+            on ? off.delete(value) : off.add(value);
+            boxes[k].checked = on;
+          });
+          this.draw();
+        }}, on ? "all" : "none");
+      parts.push(make("fieldset", {}, make("legend", {}, filterLabels[name]),
+        ...values.map((value, k) => make("label", {}, boxes[k], " " + text(value))),
+        ...values.length > 2 ? [all(true), " ", all(false)] : []));
+    }
+    byId("curve-filters").replaceChildren(...parts);
+  }
+
+  // What sets the gases on show apart, as the label of a curve.
+  labelOf(gas, shown) {
+    const apart = gasNames.filter((name) => new Set(shown.map((one) => one[name])).size > 1);
+    const names = apart.length > 0 ? apart : ["e", "n", "particles"];
+    const order = ["e", "n", "particles", "d", "effects", "equilibrate", "sample_every"];
+    return order.filter((name) => names.includes(name)).map((name) => {
+      const value = gas[name];
+      return `${filterLabels[name]} = ${name === "particles" ? countText(value) : value === null ? "none" : numberText(value)}`;
+    }).join(", ");
+  }
+
+  draw() {
+    const quantity = this.quantity();
+    const shown = this.gases.filter((gas) => gasNames.every((name) => !this.off.get(name)?.has(gas[name])));
+    const isProfile = quantity.table === "mean_profiles";
+    const curves = shown.map((gas, k) => ({
+      key: gas.key, gas, label: this.labelOf(gas, shown), colour: colourOf(k, shown.length),
+      x: this.xOf(gas), y: gas.y,
+      error: gas.se.map((se, i) => se === null ? NaN : se * studentFactor(gas.realizations[i])),
+    }));
+    const labels = {tau: "τ, collisions per particle", time: "t [σ (m/E(0))^½]", haff: "2γ₀τ"};
+    this.chart.draw({curves, errors: this.chosen.errors,
+      x: {label: isProfile ? profileX[quantity.name] ?? "x" : labels[this.chosen.x], log: this.chosen.logX},
+      y: {label: quantityLabels[quantity.name] ?? quantity.name, log: this.chosen.logY}});
+  }
+
+  save() {
+    const quantity = this.quantity();
+    if (!quantity) return;
+    const isProfile = quantity.table === "mean_profiles";
+    const x = isProfile ? "x" : this.chosen.x === "haff" ? "2_gamma_0_tau" : this.chosen.x;
+    const rows = [[...gasNames, ...isProfile ? ["tau"] : [], x, quantity.name, quantity.name + "_se", "realizations"]];
+    for (const {gas, x: xs} of this.chart.shown())
+      gas.y.forEach((y, k) => rows.push([...gasNames.map((name) => gas[name]),
+        ...isProfile ? [this.chosen.tau] : [], xs[k], y, gas.se[k], gas.realizations[k]]));
+    download(`${quantity.name}.csv`, csvText(rows));
+  }
+}
