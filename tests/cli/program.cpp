@@ -15,9 +15,10 @@
 #include <thread>
 
 namespace haff::tests {
-namespace {
 
-constexpr const char* campaign_path = HAFF_CAMPAIGN;
+const char* const campaign_path = HAFF_CAMPAIGN;
+
+namespace {
 
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

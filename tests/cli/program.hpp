@@ -12,6 +12,9 @@
 
 namespace haff::tests {
 
+// The program `campaign` of this build.
+extern const char* const campaign_path;
+
 // A temporary folder with a store in it, once there is one.
 class Folder {
  public:

@@ -33,7 +33,7 @@ class OnTerminal {
     id_ = forkpty(&screen_, nullptr, nullptr, &size);
     if (id_ != 0) return;
     if (chdir((folder / "").c_str()) != 0) _exit(126);
-    words.insert(words.begin(), HAFF_CAMPAIGN);
+    words.insert(words.begin(), campaign_path);
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
