@@ -72,5 +72,6 @@ std::optional<Plot> figure_11(const Averages& averages);
 std::optional<Plot> figure_12(const Averages& averages);
 std::optional<Plot> figure_13(const Averages& averages);
 std::optional<Plot> figure_14(const Averages& averages);
+std::optional<Plot> figure_15(const Averages& averages);
 
 }  // namespace haff::campaign

@@ -1,10 +1,13 @@
 // Figure 4: how the velocity distribution leaves the Gaussian and returns, a_2, a_3, a_4 against
-// tau at e = 0.90, with tau_c marked.
+// tau at e = 0.90, with tau_c marked, beside what a gas without correlations does.
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "campaign/paper/figure.hpp"
+#include "campaign/paper/uncorrelated.hpp"
 
 namespace haff::campaign {
 
@@ -17,6 +20,8 @@ std::optional<Plot> figure_04(const Averages& averages) {
   Panel panel{.x = {.label = "{/:Italic τ}", .column = "tau", .low = 0, .high = end},
               .y = {.label = "{/:Italic a_ℓ}", .column = "coefficient"},
               .legend = "top left horizontal"};
+  std::vector<std::optional<Curve>> theories;
+  std::size_t coefficients = 0;
   const auto add = [&](const char* name, const char* legend, const Means& means) {
     Curve curve = measured_curve(series);
     curve.name = name;
@@ -24,13 +29,23 @@ std::optional<Plot> figure_04(const Averages& averages) {
     curve.x = series.tau;
     curve.y = means.value;
     curve.error = means.error;
-    curve.colour = colour(panel.curves.size(), 3);
+    curve.colour = colour(coefficients++, 3);
     curve.width = 1.3;
+    theories.push_back(direct_curve(name, series.e, end));
+    if (theories.back()) {
+      theories.back()->colour = curve.colour;
+      theories.back()->look = Look::dashed;
+      theories.back()->legend = "";
+    }
     panel.curves.push_back(until(end, std::move(curve)));
   };
   add("a2", "{/:Italic a}_2", series.a2);
   add("a3", "{/:Italic a}_3", series.a3);
   add("a4", "{/:Italic a}_4", series.a4);
+  for (auto& theory : theories)
+    if (theory) panel.curves.push_back(std::move(*theory));
+  if (panel.curves.size() > coefficients)
+    panel.curves.push_back({.legend = "Enskog–Boltzmann", .look = Look::dashed});
   // Room for the legend above all curves.
   const Range range = y_range(panel.curves);
   panel.y.low = range.low - 0.05 * range.width();

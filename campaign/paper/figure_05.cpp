@@ -4,29 +4,23 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
-#include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/paper/figure.hpp"
+#include "campaign/paper/uncorrelated.hpp"
 
 namespace haff::campaign {
 namespace {
 
 constexpr double short_times = 15;  // the inset's end: the theory is on its plateau by then
 
-Curve theory(double e, double end) {
-  Curve curve{.name = "Enskog-Boltzmann",
-              .legend = "Enskog–Boltzmann, first order in {/:Italic a}_2",
-              .source = Source::theory,
-              .e = e};
-  curve.width = 2.2;
-  constexpr int points = 150;
-  for (int i = 0; i <= points; ++i) {
-    const double share = static_cast<double>(i) / points;
-    const double tau = end * share * share;  // denser where it bends
-    curve.x.push_back(tau);
-    curve.y.push_back(analysis::boltzmann_a2(tau, e));
-  }
-  return curve;
+// The theory's curves, where both are known: to first order, as the paper has it, and all of it.
+std::vector<Curve> theories(double e, double end) {
+  std::vector<Curve> curves;
+  if (auto direct = direct_curve("a2", e, end)) curves.push_back(std::move(*direct));
+  curves.push_back(first_order_curve("a2", e, end));
+  if (curves.size() == 1) curves.back().legend = "Enskog–Boltzmann, first order in {/:Italic a}_2";
+  return curves;
 }
 
 Curve simulation(const MeanSeries& series, double end) {
@@ -51,8 +45,9 @@ std::optional<Plot> figure_05(const Averages& averages) {
 
   Panel whole{.x = {.label = "{/:Italic τ}", .column = "tau", .low = 0, .high = end},
               .y = {.label = "{/:Italic a}_2", .column = "a2"},
-              .curves = {simulation(series, end), theory(series.e, end)},
+              .curves = {simulation(series, end)},
               .legend = "bottom right"};
+  for (Curve& curve : theories(series.e, end)) whole.curves.push_back(std::move(curve));
   // Room for the inset above all curves, and for the legend below.
   const Range range = y_range(whole.curves);
   whole.y.low = range.low - 0.35 * range.width();
@@ -61,10 +56,11 @@ std::optional<Plot> figure_05(const Averages& averages) {
   Panel inset{.name = "inset",
               .x = {.column = "tau", .low = 0, .high = start},
               .y = {.column = "a2"},
-              .curves = {theory(series.e, start), simulation(series, start)},
+              .curves = theories(series.e, start),
               .legend = "none",
               .small = true,
               .frame = {{0.42, 0.94, 0.675, 0.95}}};
+  inset.curves.push_back(simulation(series, start));
   inset.curves.back().look = Look::symbols;
   const Range inner = y_range(inset.curves);
   inset.y.tics = fmt::format("{:g}", round_step(inner.width() / 4));

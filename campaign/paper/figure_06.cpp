@@ -3,31 +3,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/paper/figure.hpp"
+#include "campaign/paper/uncorrelated.hpp"
 
 namespace haff::campaign {
 namespace {
 
 constexpr double restitution = densities_restitution;
 constexpr double short_times = 30;
-
-Curve theory(double end) {
-  Curve curve{.name = "Enskog-Boltzmann",
-              .legend = "Enskog–Boltzmann, first order in {/:Italic a}_2",
-              .source = Source::theory,
-              .e = restitution};
-  curve.width = 2.2;
-  constexpr int points = 150;
-  for (int i = 0; i <= points; ++i) {
-    const double share = static_cast<double>(i) / points;
-    const double tau = end * share * share;  // denser where it bends
-    curve.x.push_back(tau);
-    curve.y.push_back(analysis::boltzmann_a2(tau, restitution));
-  }
-  return curve;
-}
 
 }  // namespace
 
@@ -52,7 +36,9 @@ std::optional<Plot> figure_06(const Averages& averages) {
     curve.error = series.a2.error;
     panel.curves.push_back(until(end, std::move(curve)));
   }
-  panel.curves.push_back(theory(end));
+  if (auto direct = direct_curve("a2", restitution, end))
+    panel.curves.push_back(std::move(*direct));
+  panel.curves.push_back(first_order_curve("a2", restitution, end));
   // Room for the legend above all curves.
   const Range range = y_range(panel.curves);
   panel.y.low = range.low - 0.05 * range.width();

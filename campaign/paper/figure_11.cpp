@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "analysis/theory/energy_equation.hpp"
-#include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/paper/figure.hpp"
 #include "campaign/paper/interval_means.hpp"
+#include "campaign/paper/uncorrelated.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -79,15 +79,9 @@ std::optional<Plot> figure_11(const Averages& averages) {
       {.legend = fmt::format("energy equation, {{/:Italic b}} = {:.2f}", analysis::cutoff_b)});
   panel.curves.push_back(
       {.legend = "the same, Gaussian velocities", .look = Look::dotted, .width = 1.2});
-  Curve boltzmann{.name = "Enskog-Boltzmann",
-                  .legend = "Enskog–Boltzmann, {/:Italic e} = 0.865",
-                  .source = Source::theory,
-                  .e = deepest_a2};
+  Curve boltzmann = direct_curve("gamma_ratio", deepest_a2, end).value();  // tabulated
+  boltzmann.legend = "Enskog–Boltzmann, {/:Italic e} = 0.865";
   boltzmann.look = Look::dashed;
-  for (const double tau : times(end)) {
-    boltzmann.x.push_back(tau);
-    boltzmann.y.push_back(analysis::boltzmann_gamma_ratio(analysis::boltzmann_a2(tau, deepest_a2)));
-  }
   panel.curves.push_back(std::move(boltzmann));
   const Range range = y_range(panel.curves);
   panel.y.low = range.low - 0.04 * range.width();

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "analysis/theory/energy_equation.hpp"
-#include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/paper/figure.hpp"
 #include "campaign/paper/interval_means.hpp"
+#include "campaign/paper/uncorrelated.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -46,15 +46,8 @@ Curve energy_equation(double n, double end, analysis::Velocities velocities) {
 }
 
 Curve boltzmann(double end) {
-  Curve curve{.name = "Enskog-Boltzmann",
-              .legend = "Enskog–Boltzmann",
-              .source = Source::theory,
-              .e = restitution};
+  Curve curve = direct_curve("gamma_ratio", restitution, end).value();  // tabulated
   curve.look = Look::dashed;
-  for (const double tau : times(end)) {
-    curve.x.push_back(tau);
-    curve.y.push_back(analysis::boltzmann_gamma_ratio(analysis::boltzmann_a2(tau, restitution)));
-  }
   return curve;
 }
 

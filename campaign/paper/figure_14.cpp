@@ -8,9 +8,9 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/paper/figure.hpp"
 #include "campaign/paper/interval_means.hpp"
+#include "campaign/paper/uncorrelated.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -32,22 +32,6 @@ Curve measured(const MeanSeries& series, RunValue value, double end) {
   return curve;
 }
 
-Curve theory(double e, double end, bool rate) {
-  Curve curve{.name = "Enskog-Boltzmann",
-              .legend = "Enskog–Boltzmann, first order",
-              .source = Source::theory,
-              .e = e,
-              .look = Look::dashed};
-  constexpr int points = 200;
-  for (int i = 0; i <= points; ++i) {
-    const double tau = end * i / points;
-    const double a2 = analysis::boltzmann_a2(tau, e);
-    curve.x.push_back(tau);
-    curve.y.push_back(rate ? analysis::boltzmann_gamma_ratio(a2) : a2);
-  }
-  return curve;
-}
-
 Panel panel(const std::vector<const MeanSeries*>& gases, bool rate, double end) {
   Panel result{.name = rate ? "gamma_ratio" : "a2",
                .x = {.label = "{/:Italic τ}", .column = "tau", .low = 0, .high = end},
@@ -59,7 +43,10 @@ Panel panel(const std::vector<const MeanSeries*>& gases, bool rate, double end) 
     result.curves.push_back(measured(*series, value, end));
     result.curves.back().colour = colour(result.curves.size() - 1, gases.size());
   }
-  result.curves.push_back(theory(gases.front()->e, end, rate));
+  const char* quantity = rate ? "gamma_ratio" : "a2";
+  if (auto direct = direct_curve(quantity, gases.front()->e, end))
+    result.curves.push_back(std::move(*direct));
+  result.curves.push_back(first_order_curve(quantity, gases.front()->e, end));
   return result;
 }
 

@@ -45,6 +45,10 @@ constexpr std::string_view several_densities =
     R"({ "e": 0.85, "n": [0.05, 0.1, 0.2, 0.4, 0.5], "N": 32000, "seeds": 3, "tau_max": 90,
   "observables": ["temperature", "laguerre"] })";
 
+constexpr std::string_view boxes =
+    R"({ "e": 0.80, "n": 0.4, "N": [300, 450, 563, 700, 1000], "seeds": 16, "tau_max": 400,
+  "sample_every": 10 })";
+
 constexpr std::string_view distribution =
     R"({ "e": 0.80, "n": 0.4, "N": 32000, "seeds": 3, "tau_max": 180, "profiles_every": 10,
   "observables": ["temperature", "laguerre", "distribution"] })";
@@ -52,7 +56,7 @@ constexpr std::string_view correlations =
     R"({ "e": 0.80, "n": 0.4, "N": 256000, "seeds": 1, "tau_max": 60, "profiles_every": 10,
   "fields_at": 60, "observables": ["temperature", "laguerre", "correlations", "fields"] })";
 
-constexpr std::array<Figure, 14> figures = {{
+constexpr std::array<Figure, 15> figures = {{
     {1, "temperature against Haff's law", figure_01, four_restitutions,
      "Haff's law, then a slower decay from τ_c on; late in the clustering stage roughly "
      "T ~ τ^−3 to τ^−4, strongly sample dependent."},
@@ -86,6 +90,9 @@ constexpr std::array<Figure, 14> figures = {{
     {14, "shuffled against not", figure_14, shuffled,
      "not drawn there, but argued with: without correlations a₂ keeps the value that it first "
      "settles to."},
+    {15, "boxes below and above the smallest that holds a vortex", figure_15, boxes,
+     "not of the paper: hydrodynamics says that γ/γ₀ stays constant below L_c = 2πξ⊥ and tends to "
+     "(L_c/L)² above."},
 }};
 
 std::vector<Figure> asked_for(const std::vector<int>& only) {

@@ -16,7 +16,7 @@ namespace {
 
 // A gas with two realizations, of one sample each beside the first.
 Store two_realizations() {
-  auto store = Store::create(":memory:");
+  auto store = Store::in_memory();
   store.add(plan({cooling(0.8, 1), cooling(0.8, 2)}));
   equilibrate(store);
   for (const double temperature : {0.5, 0.25}) {

@@ -1,8 +1,9 @@
 // Boxes below and above the smallest one that holds a vortex, L_c = 2 pi xi_perp (11.2 sigma and
-// N = 563 at e = 0.8, n = 0.4): below, the gas cools by Haff's law for ever, gamma/gamma_0
-// constant; above, the shear mode of wave number 2 pi/L outlives everything else, its energy falls
-// as exp(-2 nu k^2 t), and gamma/gamma_0 tends to (L_c/L)^2. S. McNamara and W. R. Young, Phys.
-// Rev. E 53, 5089 (1996); lengths: analysis/theory/enskog.hpp.
+// N = 563 at e = 0.8, n = 0.4): below, gamma/gamma_0 stays constant for ever, some per cent below
+// one, since short waves are correlated there, too; above, the shear mode of wave number 2 pi/L
+// outlives everything else, its energy falls as exp(-2 nu k^2 t), and gamma/gamma_0 tends to
+// (L_c/L)^2. S. McNamara and W. R. Young, Phys. Rev. E 53, 5089 (1996); lengths:
+// analysis/theory/enskog.hpp.
 #include <doctest/doctest.h>
 
 #include <cmath>

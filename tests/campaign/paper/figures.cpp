@@ -104,6 +104,32 @@ TEST_CASE("figures: a figure asked for whose data is missing is named, with a gr
       schema::parse_grid(grid, "the example", {.bytes = 1e12, .bytes_per_particle = 100}));
 }
 
+TEST_CASE("figures: boxes are drawn where they lie on both sides of the critical one") {
+  const TemporaryFolder folder;
+  auto store = schema::Store::in_memory();
+  add_finished(store, 0.8, 0.4, 300, 2, 300, 10);
+  add_finished(store, 0.8, 0.4, 450, 2, 300, 10);
+  CHECK(draw(store, folder.path(), {15}).code == 1);
+  add_finished(store, 0.8, 0.4, 1000, 2, 300, 10);
+  const auto drawn = draw(store, folder.path(), {15});
+  CHECK(drawn.code == 0);
+  CHECK(drawn.report.find("2πξ⊥ = 11.21 σ, N = 563") != std::string::npos);
+  CHECK(contents(folder.path() / "figure-15.csv").find("\"(L_c/L)^2, N = 1000\"") !=
+        std::string::npos);
+}
+
+TEST_CASE("figures: the theory without correlations is the equation's own where it is known") {
+  const TemporaryFolder folder;
+  auto store = schema::Store::in_memory();
+  add_finished(store, 0.9, 0.4, 2000, 1, 180);
+  CHECK(draw(store, folder.path(), {4, 5}).code == 0);
+  CHECK(contents(folder.path() / "figure-04.csv").find("direct simulation, a4") !=
+        std::string::npos);
+  const std::string five = contents(folder.path() / "figure-05.csv");
+  CHECK(five.find("direct simulation, a2") != std::string::npos);
+  CHECK(five.find("first order, a2") != std::string::npos);
+}
+
 TEST_CASE("figures: an empty store gives none, and says what to plan") {
   const TemporaryFolder folder;
   const auto drawn = draw(schema::Store::in_memory(), folder.path());
@@ -278,7 +304,7 @@ TEST_CASE("figure 14: every shuffled series is a curve of its own") {
   const auto plot = figure_14(averages);
   REQUIRE(plot);
   const auto& curves = plot->panels.front().curves;
-  REQUIRE(curves.size() == 4);
+  REQUIRE(curves.size() == 5);  // with the theory and its first order
   CHECK(curves[0].name == "not shuffled");
   CHECK(curves[1].name == "shuffled every 1");
   CHECK(curves[2].name == "shuffled every 5");
