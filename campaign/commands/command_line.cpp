@@ -4,13 +4,18 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "campaign/base/command_text.hpp"
 #include "campaign/base/duration.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/machine.hpp"
+#include "campaign/base/output.hpp"
 #include "campaign/base/version.hpp"
 #include "campaign/commands/documents.hpp"
+#include "campaign/commands/json_output.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -21,6 +26,9 @@ constexpr int default_rounds = 20;
 constexpr double default_put_back_every = 600;  // [s]
 constexpr int most_threads = 64;                // of a worker
 constexpr int most_shards = 100'000;
+constexpr double default_watch_every = 2;  // [s]
+constexpr double least_watch_every = 0.1;  // [s]
+constexpr int most_ports = 65'535;
 
 constexpr const char* exit_codes = R"(Exit codes:
   0  complete
@@ -31,8 +39,8 @@ constexpr const char* exit_codes = R"(Exit codes:
 
 std::string examples(const char* text) {
   return fmt::format(
-      "Examples:\n{}\n\n--store FILE (default {}) and --verbose may stand before or after a "
-      "command.",
+      "Examples:\n{}\n\n--store FILE (default {}), --verbose and --json may stand before or "
+      "after a command.",
       text, default_store);
 }
 
@@ -98,22 +106,58 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
       ->add_option_function<std::string>("--budget", set_budget,
                                          "Spend at most this CPU time, all workers together")
       ->type_name("TIME");
+  command
+      ->add_option("--log-json", options.log_json,
+                   "Append what happens to this file, a line of JSON an event")
+      ->type_name("FILE");
+  command
+      ->add_option("--on-finish", options.on_finish,
+                   "Give this command to the shell when the run ends, however it ends")
+      ->type_name("COMMAND");
   command->footer(examples(R"(  campaign run
   campaign run --workers 4
   campaign run --max-time 1h30m     exit code 3 if work is left
   campaign run --budget 2h          of CPU time; targets not met by then: exit code 3
   campaign run 2> run.log &         plain lines of progress in run.log
+  campaign run --log-json run.jsonl --on-finish 'mail -s "exit $CAMPAIGN_EXIT_CODE" me < /dev/null'
 
+The command of --on-finish finds CAMPAIGN_EXIT_CODE, CAMPAIGN_DONE, CAMPAIGN_FAILED and
+CAMPAIGN_PENDING (jobs of the whole store) and CAMPAIGN_STORE in its environment. The run's exit code
+stays its own.
 Ctrl-C stores what can be stored and leaves; the same command goes on.)"));
   return command;
 }
 
-CLI::App* add_status(CLI::App& app, StatusCommand& options) {
+CLI::App* add_status(CLI::App& app, StatusOptions& options) {
   auto* command = app.add_subcommand("status", "Jobs, progress, tau_c so far, failures");
-  command->add_flag("--json", options.json, "For programs");
+  const auto set_watch = [&options](const std::string& text) {
+    options.watch_every = text.empty() ? default_watch_every : seconds_from_text(text).value_or(0);
+    if (!(*options.watch_every >= least_watch_every))
+      throw CLI::ValidationError(
+          "--watch", "'" + text + "' is no duration of 0.1 s or more; expected e.g. 5s or 1m");
+  };
+  command
+      ->add_option_function<std::string>("--watch", set_watch,
+                                         "Again every so often, 2 s if no time is given, until "
+                                         "Ctrl-C")
+      ->expected(0, 1)
+      ->type_name("[TIME]");
   command->footer(examples(R"(  campaign status
   campaign status --json | jq .fraction_done
-  watch campaign status             while a run is on)"));
+  campaign status --watch           while a run is on
+  campaign status --watch 1m --json >> status.jsonl   a line a minute)"));
+  return command;
+}
+
+CLI::App* add_explain(CLI::App& app, ExplainCommand& options) {
+  auto* command = app.add_subcommand(
+      "explain", "Why a job is where it is: what it waits for, what was tried, what comes next");
+  command->add_option("JOB", options.job_id, "The job_id, as in the table jobs")
+      ->type_name("NUMBER")
+      ->required();
+  command->footer(examples(R"(  campaign explain 7
+  campaign explain 7 --json
+  campaign query "SELECT job_id, kind, e, n, particles, seed, status FROM jobs")"));
   return command;
 }
 
@@ -207,8 +251,29 @@ CLI::App* add_report(CLI::App& app, ReportOptions& options) {
   command->add_option("--out", options.out, "Folder to write report.html to")
       ->type_name("DIR")
       ->capture_default_str();
+  const auto set_port = [&options](const std::string& text) {
+    options.serve = true;
+    if (text.empty()) return;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), options.port);
+    if (error != std::errc() || end != text.data() + text.size() || options.port < 1 ||
+        options.port > most_ports)
+      throw CLI::ValidationError("--serve", "'" + text + "' is no port; expected 1 to 65535");
+  };
+  command
+      ->add_option_function<std::string>("--serve", set_port,
+                                         "Serve the page on 127.0.0.1 instead, refreshed while a "
+                                         "run is on, until Ctrl-C; any port that is free unless "
+                                         "one is named")
+      ->expected(0, 1)
+      ->type_name("[PORT]")
+      ->excludes("--out");
   command->footer(examples(R"(  campaign report                  writes report/report.html
-  campaign report --out /tmp       open it in any browser, or mail it: it needs no network)"));
+  campaign report --out /tmp       open it in any browser, or mail it: it needs no network
+  campaign report --serve          prints an address for a browser on this machine
+  campaign report --serve 8080     from another machine: ssh -L 8080:127.0.0.1:8080 HOST
+
+Only this machine can ask the server, and only with the token in the address that is printed. It
+never writes the store.)"));
   return command;
 }
 
@@ -467,6 +532,30 @@ CLI::App* add_document(CLI::App& app, std::string& kind) {
   return command;
 }
 
+// Those that print a table or the like, and print JSON when asked.
+constexpr std::string_view with_json[] = {"plan",   "run",   "status", "explain", "query", "theory",
+                                          "verify", "retry", "split",  "merge",   "recall"};
+
+std::string names_with_json() {
+  return fmt::format("{}", fmt::join(with_json, ", "));
+}
+
+// A program that reads the output of a command must not be given a table.
+void refuse_json_for(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  if (commands.empty()) return;
+  const std::string name = commands.front()->get_name();
+  if (std::ranges::find(with_json, name) == std::end(with_json))
+    throw CLI::ValidationError("--json",
+                               fmt::format("{} prints no JSON; {} do", name, names_with_json()));
+}
+
+// Before the command line is understood: whether its errors are for a program.
+bool asks_for_json(int argc, const char* const* argv) {
+  return std::any_of(argv + 1, argv + argc,
+                     [](const char* word) { return std::string_view(word) == "--json"; });
+}
+
 std::string names(const CLI::App& app) {
   std::string list;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -504,10 +593,13 @@ Parsed parse_command_line(int argc, const char* const* argv) {
       ->type_name("FILE")
       ->capture_default_str();
   app.add_flag("--verbose", line.verbose, "Log more to stderr");
+  app.add_flag("--json", line.json,
+               "Print JSON instead of tables, and errors as JSON on stderr: " + names_with_json());
 
   PlanOptions plan;
   RunOptions run;
-  StatusCommand status;
+  StatusOptions status;
+  ExplainCommand explained;
   QueryCommand query;
   FigureRequest figures;
   ExportCommand exported;
@@ -524,6 +616,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   const CLI::App* plan_command = add_plan(app, plan);
   const CLI::App* run_command = add_run(app, run);
   const CLI::App* status_command = add_status(app, status);
+  const CLI::App* explain_command = add_explain(app, explained);
   const CLI::App* query_command = add_query(app, query);
   const CLI::App* figures_command = add_figures(app, figures);
   const CLI::App* export_command = add_export(app, exported);
@@ -548,7 +641,12 @@ Parsed parse_command_line(int argc, const char* const* argv) {
     if (app.get_subcommands().empty())
       throw CLI::RequiredError("no command; expected one of " + names(app),
                                CLI::ExitCodes::RequiredError);
+    if (line.json) refuse_json_for(app);
   } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0 && asks_for_json(argc, argv)) {
+      complain_lines(error_json(error.what(), exit_bad_input));
+      return exit_bad_input;
+    }
     return app.exit(error) == 0 ? exit_complete : exit_bad_input;
   }
 
@@ -557,11 +655,14 @@ Parsed parse_command_line(int argc, const char* const* argv) {
     return exit_complete;
   }
 
+  plan.json = run.json = status.json = split.json = merge.json = recall.json = line.json;
+  if (line.json) query.format = theory.format = RowFormat::json;
   line.store = plan.store = run.store = split.store = merge.store = recall.store =
-      submit.cluster.store = report.store = store;
+      submit.cluster.store = report.store = status.store = store;
   if (plan_command->parsed()) line.command = plan;
   if (run_command->parsed()) line.command = run;
   if (status_command->parsed()) line.command = status;
+  if (explain_command->parsed()) line.command = explained;
   if (query_command->parsed()) line.command = query;
   if (figures_command->parsed()) line.command = figures;
   if (export_command->parsed()) line.command = exported;

@@ -15,14 +15,15 @@
 #include "campaign/commands/report.hpp"
 #include "campaign/commands/run.hpp"
 #include "campaign/commands/split.hpp"
+#include "campaign/commands/status.hpp"
 #include "campaign/commands/submit.hpp"
 #include "campaign/commands/theory.hpp"
 #include "campaign/paper/figures.hpp"
 
 namespace haff::campaign {
 
-struct StatusCommand {
-  bool json = false;
+struct ExplainCommand {
+  std::int64_t job_id = 0;
 };
 struct QueryCommand {
   std::string sql;
@@ -44,14 +45,15 @@ struct WorkerCommand {  // what `run` starts; not for people
 };
 
 using Command =
-    std::variant<PlanOptions, RunOptions, StatusCommand, QueryCommand, FigureRequest, CostRequest,
-                 ExportCommand, VerifyCommand, RetryCommand, BackupCommand, UpgradeCommand,
-                 SplitOptions, MergeOptions, RecallOptions, SubmitOptions, TaskOptions,
-                 TheoryOptions, ReportOptions, WorkerCommand>;
+    std::variant<PlanOptions, RunOptions, StatusOptions, ExplainCommand, QueryCommand,
+                 FigureRequest, CostRequest, ExportCommand, VerifyCommand, RetryCommand,
+                 BackupCommand, UpgradeCommand, SplitOptions, MergeOptions, RecallOptions,
+                 SubmitOptions, TaskOptions, TheoryOptions, ReportOptions, WorkerCommand>;
 
 struct CommandLine {
   std::filesystem::path store;
   bool verbose = false;
+  bool json = false;  // output and errors are for programs
   Command command;
 };
 

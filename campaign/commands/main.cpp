@@ -14,7 +14,9 @@
 #include "campaign/base/signals.hpp"
 #include "campaign/commands/backup.hpp"
 #include "campaign/commands/command_line.hpp"
+#include "campaign/commands/explain.hpp"
 #include "campaign/commands/export.hpp"
+#include "campaign/commands/json_output.hpp"
 #include "campaign/commands/plan.hpp"
 #include "campaign/commands/query.hpp"
 #include "campaign/commands/report.hpp"
@@ -47,7 +49,10 @@ struct CommandDispatcher {
     const HostLock lock(line.store, true);
     return run(options);
   }
-  int operator()(const StatusCommand& command) const { return status(line.store, command.json); }
+  int operator()(const StatusOptions& options) const { return status(options); }
+  int operator()(const ExplainCommand& command) const {
+    return explain_job(line.store, command.job_id, line.json);
+  }
   int operator()(const QueryCommand& command) const {
     return query(line.store, command.sql, command.format);
   }
@@ -62,10 +67,10 @@ struct CommandDispatcher {
     PrintableStream report;
     return cost(schema::Reader(line.store), request, report);
   }
-  int operator()(const VerifyCommand&) const { return verify(line.store); }
+  int operator()(const VerifyCommand&) const { return verify(line.store, line.json); }
   int operator()(const RetryCommand&) const {
     const HostLock lock(line.store, false);
-    return retry(line.store);
+    return retry(line.store, line.json);
   }
   int operator()(const SplitOptions& options) const {
     const HostLock lock(line.store, false);
@@ -98,32 +103,36 @@ struct CommandDispatcher {
   }
 };
 
-int failure(const std::exception& error, int exit_code) {
-  complain("campaign: {}\n", error.what());
-  return stop_signal() != 0 ? exit_signal_base + stop_signal() : exit_code;
+// The exit code that tells what went wrong.
+int exit_code_of(const std::exception& error) {
+  if (stop_signal() != 0) return exit_signal_base + stop_signal();
+  const bool is_bad_input = dynamic_cast<const schema::GridError*>(&error) != nullptr ||
+                            dynamic_cast<const schema::NameError*>(&error) != nullptr ||
+                            dynamic_cast<const schema::QueryError*>(&error) != nullptr ||
+                            dynamic_cast<const TheoryError*>(&error) != nullptr ||
+                            dynamic_cast<const UnknownFigure*>(&error) != nullptr;
+  return is_bad_input ? exit_bad_input : exit_failed;
 }
 
-int perform(int argc, char** argv) try {
-  const Parsed parsed = parse_command_line(argc, argv);
-  if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
-  const auto& line = std::get<CommandLine>(parsed);
+int perform(const CommandLine& line) try {
   set_up_log(line.verbose);
   return std::visit(CommandDispatcher{line}, line.command);
-} catch (const schema::GridError& error) {
-  return failure(error, exit_bad_input);
-} catch (const schema::NameError& error) {
-  return failure(error, exit_bad_input);
-} catch (const schema::QueryError& error) {
-  return failure(error, exit_bad_input);
-} catch (const TheoryError& error) {
-  return failure(error, exit_bad_input);
-} catch (const UnknownFigure& error) {
-  return failure(error, exit_bad_input);
-} catch (const std::bad_alloc&) {
-  return failure(std::runtime_error("no memory is left; close other programs or run fewer workers"),
-                 exit_failed);
 } catch (const std::exception& error) {
-  return failure(error, exit_failed);
+  const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  const std::string message =
+      no_memory ? "no memory is left; close other programs or run fewer workers" : error.what();
+  const int exit_code = exit_code_of(error);
+  if (line.json)
+    complain_lines(error_json(message, exit_code));
+  else
+    complain("campaign: {}\n", message);
+  return exit_code;
+}
+
+int perform(int argc, char** argv) {
+  const Parsed parsed = parse_command_line(argc, argv);
+  const int* exit_code = std::get_if<int>(&parsed);
+  return exit_code != nullptr ? *exit_code : perform(std::get<CommandLine>(parsed));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ namespace haff::campaign {
 struct MergeOptions {
   std::filesystem::path store;
   std::vector<std::filesystem::path> shards;
+  bool json = false;  // print for programs
 };
 
 // Merges each shard and prints what came of it. A shard that is refused is named, with the reason,

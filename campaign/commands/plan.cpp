@@ -3,27 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
-#include <tuple>
 #include <vector>
 
 #include "campaign/accuracy/targets.hpp"
 #include "campaign/base/command_text.hpp"
 #include "campaign/base/duration.hpp"
 #include "campaign/base/exit_code.hpp"
-#include "campaign/base/job_text.hpp"
 #include "campaign/base/machine.hpp"
 #include "campaign/base/number_text.hpp"
 #include "campaign/base/output.hpp"
 #include "campaign/base/text_table.hpp"
-#include "campaign/planning/advice.hpp"
+#include "campaign/commands/json_output.hpp"
+#include "campaign/commands/plan_outcome.hpp"
 #include "campaign/planning/expansion.hpp"
 #include "campaign/planning/forecast.hpp"
 #include "campaign/planning/preparation.hpp"
-#include "campaign/results/box.hpp"
 #include "schema/grid.hpp"
 #include "schema/store.hpp"
 
@@ -33,65 +29,23 @@ namespace {
 using schema::Outcome;
 using schema::Planned;
 
-// A store without jobs: its tables, indexes and views. [bytes]
-constexpr double empty_store_bytes = 100e3;
-
-// Jobs of one line of the table.
-struct Group {
-  std::map<Outcome, int> outcomes;
-  int jobs = 0;
-  double cpu_seconds = 0;
-  double disk_bytes = 0;
-};
-
-// Equilibrations first, then by d, e, n, N.
-using GroupKey =
-    std::tuple<schema::Kind, int, std::optional<double>, double, std::uint32_t, double>;
-
-GroupKey group_of(const Planned& plan) {
-  return {plan.job.kind, plan.job.d, plan.job.e, plan.job.n, plan.job.particles, plan.tau_max};
-}
-
 void expect(std::vector<Planned>& jobs, Forecast& forecast) {
   for (Planned& job : jobs) job.expected_cpu_seconds = forecast.cpu_seconds(job);
 }
 
-std::string counts_text(const std::map<Outcome, int>& outcomes, bool dry_run) {
-  const auto count = [&](Outcome outcome) {
-    const auto found = outcomes.find(outcome);
-    return found == outcomes.end() ? 0 : found->second;
-  };
-  const int added = count(Outcome::added);
-  const int extended = count(Outcome::extended);
-  if (added == 0 && extended == 0)
-    return dry_run ? "nothing would be added, all are in the store"
-                   : "nothing was added, all are in the store";
-  std::string text = fmt::format("{} {}", added, dry_run ? "would be added" : "added");
-  if (extended > 0) text += fmt::format(", {} extended to a larger tau_max", extended);
-  if (const int there = count(Outcome::unchanged)) text += fmt::format(", {} already there", there);
+std::string counts_text(const PlanOutcome& outcome) {
+  if (outcome.added == 0 && outcome.extended == 0)
+    return outcome.dry_run ? "nothing would be added, all are in the store"
+                           : "nothing was added, all are in the store";
+  std::string text =
+      fmt::format("{} {}", outcome.added, outcome.dry_run ? "would be added" : "added");
+  if (outcome.extended > 0)
+    text += fmt::format(", {} extended to a larger tau_max", outcome.extended);
+  if (outcome.unchanged > 0) text += fmt::format(", {} already there", outcome.unchanged);
   return text;
 }
 
-void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcomes,
-           Forecast& forecast, bool dry_run) {
-  std::map<GroupKey, Group> groups;
-  std::map<Outcome, int> all;
-  double cpu_seconds = 0;
-  double memory = 0;
-  double disk = empty_store_bytes;
-  for (std::size_t k = 0; k < jobs.size(); ++k) {
-    const double expected = jobs[k].expected_cpu_seconds.value_or(0);
-    Group& group = groups[group_of(jobs[k])];
-    ++group.jobs;
-    ++group.outcomes[outcomes[k]];
-    group.cpu_seconds += expected;
-    group.disk_bytes += forecast.disk_bytes(jobs[k]);
-    ++all[outcomes[k]];
-    cpu_seconds += expected;
-    memory = std::max(memory, forecast.memory_bytes(jobs[k].job));
-    disk += forecast.disk_bytes(jobs[k]);
-  }
-
+void print_jobs(const PlanOutcome& outcome) {
   TextTable table({{"kind", Align::left},
                    {"d"},
                    {"e"},
@@ -103,28 +57,22 @@ void print(const std::vector<Planned>& jobs, const std::vector<Outcome>& outcome
                    {"extended"},
                    {"CPU time"},
                    {"disk"}});
-  for (auto& [key, group] : groups) {
-    const auto& [kind, d, e, n, particles, tau_max] = key;
-    table.add({std::string(name(kind)), count_text(d), e ? number_text(*e) : no_value,
-               number_text(n), count_text(particles), number_text(tau_max), count_text(group.jobs),
-               count_text(group.outcomes[Outcome::added]),
-               count_text(group.outcomes[Outcome::extended]), duration_text(group.cpu_seconds),
-               bytes_text(group.disk_bytes)});
-  }
+  for (const PlanGroup& group : outcome.groups)
+    table.add({std::string(name(group.job.kind)), count_text(group.job.d),
+               group.job.e ? number_text(*group.job.e) : no_value, number_text(group.job.n),
+               count_text(group.job.particles), number_text(group.tau_max), count_text(group.jobs),
+               count_text(group.added), count_text(group.extended),
+               duration_text(group.cpu_seconds), bytes_text(group.disk_bytes)});
   say("{}\n", table.text());
-  say("{} jobs: {}.\n", jobs.size(), counts_text(all, dry_run));
+  say("{} jobs: {}.\n", outcome.jobs, counts_text(outcome));
   say("Expected in all: {} of CPU time ({}), {} of memory for each worker, {} on disk.\n",
-      duration_text(cpu_seconds), forecast.source(), bytes_text(memory), bytes_text(disk));
-  if (const double all_workers = processors() * memory; all_workers > memory_bytes())
-    say("Warning: {} workers, as many as `run` starts here, would take {} of memory; {} are there: "
-        "run "
-        "with --workers {}.\n",
-        processors(), bytes_text(all_workers), bytes_text(memory_bytes()),
-        std::max(1.0, std::floor(memory_bytes() / memory)));
+      duration_text(outcome.cpu_seconds), outcome.cpu_source, bytes_text(outcome.memory_bytes),
+      bytes_text(outcome.disk_bytes));
+  if (!outcome.memory_warning.empty()) say("Warning: {}.\n", outcome.memory_warning);
 }
 
 // What the boxes of the plan can hold by linear theory, a line for each gas, and warnings.
-void print_boxes(const std::vector<Planned>& jobs) {
+void print_boxes(const PlanOutcome& outcome) {
   TextTable table({{"e"},
                    {"n"},
                    {"N"},
@@ -134,22 +82,14 @@ void print_boxes(const std::vector<Planned>& jobs) {
                    {"fastest wave"},
                    {"fit"},
                    {"grown by tau"}});
-  std::set<std::tuple<int, double, double, std::uint32_t>> seen;
-  std::vector<std::string> warnings;
-  for (const auto& [job, tau_max, checkpoint_every, expected] : jobs) {
-    const bool is_plain = job.kind == schema::Kind::cooling && job.e && job.effects == "{}";
-    if (!is_plain || !seen.emplace(job.d, *job.e, job.n, job.particles).second) continue;
-    const auto report = box_report(job);
-    if (!report) continue;
-    if (std::string warning = haff_warning(job, *report); !warning.empty())
-      warnings.push_back(std::move(warning));
+  for (const auto& [job, report] : outcome.boxes) {
     const auto number = [](const std::optional<double>& value, int digits) {
       return value ? fmt::format("{:.{}f}", *value, digits) : std::string(no_value);
     };
     table.add({number_text(*job.e), number_text(job.n), count_text(job.particles),
-               number(report->side, 1), number(report->vortices_across, 1),
-               number(report->clusters_across, 1), number(report->fastest_wave, 1),
-               number(report->waves_across, 0), number(report->grown_tau, 0)});
+               number(report.side, 1), number(report.vortices_across, 1),
+               number(report.clusters_across, 1), number(report.fastest_wave, 1),
+               number(report.waves_across, 0), number(report.grown_tau, 0)});
   }
   if (table.empty()) return;
   say("\nWhat the boxes can hold, by linear theory: how many of the shortest growing vortices "
@@ -157,17 +97,7 @@ void print_boxes(const std::vector<Planned>& jobs) {
       "many "
       "of it fit, and the tau at which\nit has grown by a factor 2.72.\n\n{}",
       table.text());
-  for (const std::string& warning : warnings) say("Warning: {}.\n", warning);
-}
-
-void print_advice(const std::vector<Planned>& jobs, const std::vector<schema::JobRow>& known) {
-  print_boxes(jobs);
-  for (const std::string& line : near_twins(jobs, known)) say("Note: {}\n", line);
-  if (const std::size_t again = recomputed(jobs, known))
-    say("Note: {} of the new jobs are of gases that the store has with other observables. What a "
-        "job "
-        "measures is\n  part of it: they are computed a second time.\n",
-        again);
+  for (const std::string& warning : outcome.box_warnings) say("Warning: {}.\n", warning);
 }
 
 // What the targets will take beyond the jobs above, as far as runs that are done tell.
@@ -184,6 +114,14 @@ void print_targets(const std::vector<TargetProgress>& targets) {
         unknown->target.pilots.size());
 }
 
+void print(const PlanOutcome& outcome) {
+  print_jobs(outcome);
+  print_boxes(outcome);
+  for (const std::string& note : outcome.notes) say("Note: {}\n", note);
+  print_targets(outcome.targets);
+  say("{}Next: {}\n", outcome.dry_run ? "Nothing was written. " : "", outcome.next);
+}
+
 // Those the store does not have yet as they will be.
 std::vector<TargetProgress> preview(const schema::Reader& store, const std::vector<Planned>& jobs,
                                     const std::vector<schema::Target>& targets) {
@@ -195,20 +133,9 @@ std::vector<TargetProgress> preview(const schema::Reader& store, const std::vect
   return all;
 }
 
-void print_next(const PlanOptions& options) {
-  if (options.dry_run)
-    say("Nothing was written. Next: {}\n",
-        command_text("plan " + shell_word(options.grid.string()), options.store));
-  else
-    say("Next: {}\n", command_text("run", options.store));
-}
-
-}  // namespace
-
-int plan(const PlanOptions& options) {
-  const schema::Grid grid = schema::read_grid(options.grid, machine_memory(), why_not_prepared);
-  std::vector<Planned> jobs = expand(grid);
-  const std::vector<schema::Target> targets = targets_of(grid);
+// Writes to the store, unless only asked what that would do.
+PlanOutcome plan_into_store(std::vector<Planned>& jobs, const std::vector<schema::Target>& targets,
+                            const PlanOptions& options) {
   if (!options.dry_run) {
     schema::Store store = schema::Store::create(options.store);
     const std::vector<schema::JobRow> known = store.jobs();
@@ -217,25 +144,39 @@ int plan(const PlanOptions& options) {
     const std::vector<Outcome> outcomes = store.add(jobs);
     store.add(targets);
     keep_predictions(store);
-    print(jobs, outcomes, forecast, false);
-    print_advice(jobs, known);
-    print_targets(progress_of(store, targets));
-  } else if (std::filesystem::exists(options.store)) {
+    PlanOutcome outcome = plan_outcome(jobs, outcomes, forecast, known, false);
+    outcome.targets = progress_of(store, targets);
+    return outcome;
+  }
+  if (std::filesystem::exists(options.store)) {
     const schema::Reader store(options.store);
     const std::vector<schema::JobRow> known = store.jobs();
     Forecast forecast(known);
     expect(jobs, forecast);
-    print(jobs, store.preview(jobs), forecast, true);
-    print_advice(jobs, known);
-    print_targets(preview(store, jobs, targets));
-  } else {
-    Forecast forecast({});
-    expect(jobs, forecast);
-    print(jobs, std::vector(jobs.size(), Outcome::added), forecast, true);
-    print_advice(jobs, {});
-    print_targets(progress_of(jobs, targets));
+    PlanOutcome outcome = plan_outcome(jobs, store.preview(jobs), forecast, known, true);
+    outcome.targets = preview(store, jobs, targets);
+    return outcome;
   }
-  print_next(options);
+  Forecast forecast({});
+  expect(jobs, forecast);
+  PlanOutcome outcome =
+      plan_outcome(jobs, std::vector(jobs.size(), Outcome::added), forecast, {}, true);
+  outcome.targets = progress_of(jobs, targets);
+  return outcome;
+}
+
+}  // namespace
+
+int plan(const PlanOptions& options) {
+  const schema::Grid grid = schema::read_grid(options.grid, machine_memory(), why_not_prepared);
+  std::vector<Planned> jobs = expand(grid);
+  PlanOutcome outcome = plan_into_store(jobs, targets_of(grid), options);
+  outcome.next = command_text(options.dry_run ? "plan " + shell_word(options.grid.string()) : "run",
+                              options.store);
+  if (options.json)
+    print_json(plan_json(outcome));
+  else
+    print(outcome);
   return exit_complete;
 }
 

@@ -9,6 +9,7 @@ struct PlanOptions {
   std::filesystem::path grid;
   std::filesystem::path store;
   bool dry_run = false;  // show what would happen, touch nothing
+  bool json = false;     // print for programs
 };
 
 // Adds what is missing and prints what the campaign will cost; returns an ExitCode. Throws

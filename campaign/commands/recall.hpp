@@ -10,6 +10,7 @@ namespace haff::campaign {
 struct RecallOptions {
   std::filesystem::path store;
   std::vector<std::string> shards;  // names, or paths of their files
+  bool json = false;                // print for programs
 };
 
 // Merges what is left of each shard, if its file is there, and makes its unfinished jobs pending.

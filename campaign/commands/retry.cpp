@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "campaign/base/command_text.hpp"
@@ -10,11 +12,14 @@
 #include "campaign/base/job_text.hpp"
 #include "campaign/base/output.hpp"
 #include "campaign/base/printable.hpp"
+#include "campaign/commands/json_output.hpp"
 #include "campaign/state/restore.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {
 namespace {
+
+using nlohmann::ordered_json;
 
 // Why the job cannot go on from its state, nor others start from it; or nothing. What is done and
 // sound stays, whichever physics version computed it: but for an equilibration, from which others
@@ -61,24 +66,30 @@ std::vector<Damaged> damaged_jobs(const schema::Reader& store) {
 
 }  // namespace
 
-int retry(const std::filesystem::path& path) {
+int retry(const std::filesystem::path& path, bool json) {
   schema::Store store = schema::Store::open(path);
   std::vector<Damaged> damaged;
   try {
     damaged = damaged_jobs(store);
   } catch (const NewerCheckpoint& newer) {
-    say("{}: a newer program wrote one of its states ({}). Nothing was changed; update "
-        "campaign\n",
-        path.string(), printable(newer.what()));
-    return exit_failed;
+    throw std::runtime_error(
+        fmt::format("{}: a newer program wrote one of its states ({}). Nothing was changed; update "
+                    "campaign",
+                    path.string(), printable(newer.what())));
   }
   int restarted = 0;
+  ordered_json list = ordered_json::array();
   for (const auto& [row, why] : damaged) {
     if (!store.restart(row.job_id)) continue;
     ++restarted;
-    say("job {} ({}) starts again: {}\n", row.job_id, describe(row.job), printable(why));
+    list.push_back({{"job_id", row.job_id}, {"why", why}});
+    if (!json) say("job {} ({}) starts again: {}\n", row.job_id, describe(row.job), printable(why));
   }
   const auto reopened = store.retry_failed();
+  if (json) {
+    print_json({{"reopened", reopened}, {"restarted", list}});
+    return exit_complete;
+  }
   say("{} failed job{} reopened, {} with a damaged checkpoint start{} again\n", reopened,
       reopened == 1 ? "" : "s", restarted, restarted == 1 ? "s" : "");
   if (reopened + restarted > 0) say("Next: {}\n", command_text("run", path));

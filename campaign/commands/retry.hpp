@@ -5,7 +5,7 @@
 
 namespace haff::campaign {
 
-// Reopens what can be reopened and says so; returns an ExitCode.
-int retry(const std::filesystem::path& store);
+// Reopens what can be reopened and says so, for people or as JSON; returns an ExitCode.
+int retry(const std::filesystem::path& store, bool json);
 
 }  // namespace haff::campaign

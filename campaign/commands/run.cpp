@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -14,17 +15,21 @@
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/output.hpp"
 #include "campaign/base/signals.hpp"
+#include "campaign/base/version.hpp"
 #include "campaign/commands/status.hpp"
+#include "campaign/run/event_log.hpp"
+#include "campaign/run/on_finish.hpp"
+#include "campaign/run/process.hpp"
 #include "campaign/run/work_left.hpp"
 
 namespace haff::campaign {
 namespace {
 
 // Round by round, until the targets are met or something ends it.
-RoundEnd run_rounds(schema::Store& store, const RunOptions& options) {
+RoundEnd run_rounds(schema::Store& store, const RunOptions& options, EventLog& log) {
   const auto start = std::chrono::steady_clock::now();
   for (;;) {
-    const RoundEnd ended = run_round(store, options, start);
+    const RoundEnd ended = run_round(store, options, start, log);
     if (stop_signal() != 0) return ended;
     keep_predictions(store);
     if (ended.over_limit || ended.store_error) return ended;
@@ -91,19 +96,68 @@ int rescue(const schema::Store& store, const std::string& what) {
   return exit_failed;
 }
 
+int work_to_the_end(schema::Store& store, const RunOptions& options, EventLog& log) {
+  const RoundEnd ended = run_rounds(store, options, log);
+  if (const auto what = store.displaced()) return rescue(store, *what);
+  const int exit_code = conclusion(store.summary(), progress_of(store, store.targets()), ended);
+  if (options.json) {
+    print_outcome_json(store, exit_code);
+  } else {
+    print_limits(options, ended, exit_code);
+    print_outcome(store);
+  }
+  close_log(store);
+  return exit_code;
+}
+
+void log_start(const RunOptions& options, EventLog& log) {
+  const schema::Owner me = this_process();
+  log.add("run_started", {{"store", std::filesystem::absolute(options.store).string()},
+                          {"workers", options.workers},
+                          {"threads", options.threads},
+                          {"host", me.host},
+                          {"pid", me.pid},
+                          {"code_version", code_version()}});
+}
+
+// What is said at the very end, to the log and to the command of --on-finish, however the run
+// ended.
+void announce_end(const RunOptions& options, int exit_code, EventLog& log) {
+  RunOutcome outcome{.exit_code = exit_code, .store = options.store};
+  try {
+    auto jobs = schema::Reader(options.store).job_counts();
+    outcome.done = jobs[schema::Status::done];
+    outcome.failed = jobs[schema::Status::failed];
+    outcome.pending = jobs[schema::Status::pending];
+  } catch (const schema::StoreError&) {  // it has said so itself
+  }
+  log.add("run_ended", {{"exit_code", exit_code},
+                        {"done", outcome.done},
+                        {"failed", outcome.failed},
+                        {"pending", outcome.pending},
+                        {"cpu_seconds", cpu_seconds_of_ended_children()}});
+  if (!options.on_finish.empty()) run_on_finish(options.on_finish, outcome);
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
   note_stop_signals();
-  schema::Store store = schema::Store::open(options.store);
-  store.wait_for_locks_while(may_wait_for_locks);
-  store.open_log();
-  const RoundEnd ended = run_rounds(store, options);
-  if (const auto what = store.displaced()) return rescue(store, *what);
-  const int exit_code = conclusion(store.summary(), progress_of(store, store.targets()), ended);
-  print_limits(options, ended, exit_code);
-  print_outcome(store);
-  close_log(store);
+  EventLog log;
+  if (!options.log_json.empty()) log.open(options.log_json);
+  log_start(options, log);
+  int exit_code = exit_failed;
+  try {
+    schema::Store store = schema::Store::open(options.store);
+    store.wait_for_locks_while(may_wait_for_locks);
+    store.open_log();
+    exit_code = work_to_the_end(store, options, log);
+  } catch (const std::exception& error) {
+    log.add("message", {{"level", "error"}, {"text", error.what()}});
+    announce_end(options, exit_failed, log);
+    throw;
+  }
+  announce_end(options, exit_code, log);
   return exit_code;
 }
 

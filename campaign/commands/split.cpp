@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "campaign/base/command_text.hpp"
 #include "campaign/base/duration.hpp"
@@ -11,10 +12,13 @@
 #include "campaign/base/output.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/cluster/split.hpp"
+#include "campaign/commands/json_output.hpp"
 #include "campaign/run/abandoned.hpp"
 
 namespace haff::campaign {
 namespace {
+
+using nlohmann::ordered_json;
 
 void print(const std::vector<WrittenShard>& shards, int workers) {
   TextTable table({{"shard", Align::left}, {"jobs"}, {"CPU time"}, {"longest job"}, {"time"}});
@@ -36,6 +40,25 @@ void print(const std::vector<WrittenShard>& shards, int workers) {
       workers == 1 ? "" : "s", duration_text(makespan));
 }
 
+ordered_json shards_json(const std::vector<WrittenShard>& shards, const SplitOptions& options) {
+  ordered_json list = ordered_json::array();
+  double makespan = 0;
+  for (const WrittenShard& shard : shards) {
+    const double time = shard.share.makespan(options.workers);
+    makespan = std::max(makespan, time);
+    list.push_back({{"shard", shard.name},
+                    {"path", shard.path.string()},
+                    {"jobs", shard.share.jobs.size()},
+                    {"expected_cpu_seconds", shard.share.cpu_seconds},
+                    {"longest_cpu_seconds", shard.share.longest_cpu_seconds},
+                    {"expected_seconds", time}});
+  }
+  return {{"dry_run", options.dry_run},
+          {"workers_of_shard", options.workers},
+          {"expected_seconds", makespan},
+          {"shards", list}};
+}
+
 }  // namespace
 
 int split(const SplitOptions& options) {
@@ -46,6 +69,10 @@ int split(const SplitOptions& options) {
     take_back_from_the_dead(store);
     return split(store, options.into, options.out);
   }();
+  if (options.json) {
+    print_json(shards_json(shards, options));
+    return exit_complete;
+  }
   if (shards.empty()) {
     say("No job is pending: there is nothing to lend.\n");
     return exit_complete;

@@ -12,6 +12,7 @@ struct SplitOptions {
   std::filesystem::path out = "shards";
   int workers = 1;       // of each shard, for the expected time
   bool dry_run = false;  // print the table only
+  bool json = false;     // print for programs
 };
 
 // Writes the shards, prints the load of each, and returns an ExitCode.

@@ -14,6 +14,8 @@
 #include "campaign/base/output.hpp"
 #include "campaign/base/printable.hpp"
 #include "campaign/base/text_table.hpp"
+#include "campaign/commands/json_output.hpp"
+#include "campaign/commands/watch.hpp"
 #include "campaign/report/overview.hpp"
 #include "campaign/report/overview_json.hpp"
 #include "campaign/run/abandoned.hpp"
@@ -137,42 +139,53 @@ std::string predictions_text(const std::vector<TargetProgress>& targets) {
 }
 
 // Series, targets, failures, and what to do.
-void print_findings(const Overview& overview) {
-  if (!overview.series.empty()) say("{}\n", series_table(overview.series));
-  if (!overview.targets.empty()) say("{}\n", targets_table(overview.targets));
-  if (const std::string text = predictions_text(overview.targets); !text.empty()) say("{}\n", text);
-  const std::string failures = failures_text(overview);
-  if (!failures.empty()) say("{}\n", failures);
-  for (const std::string& sentence : overview.mixed_physics) say("Note: {}\n", sentence);
-  say("{}", next_text(overview));
+std::string findings_text(const Overview& overview) {
+  std::string text;
+  const auto add = [&](const std::string& part) {
+    if (!part.empty()) text += part + '\n';
+  };
+  if (!overview.series.empty()) add(series_table(overview.series));
+  if (!overview.targets.empty()) add(targets_table(overview.targets));
+  add(predictions_text(overview.targets));
+  add(failures_text(overview));
+  for (const std::string& sentence : overview.mixed_physics) text += "Note: " + sentence + '\n';
+  return text + next_text(overview);
 }
 
-void print_overview(const Overview& overview) {
+std::string overview_text(const Overview& overview) {
   const schema::Summary& summary = overview.summary;
-  say("{}: {} jobs, {:.1f} % of the work done\n\n", overview.path.string(), overview.jobs.size(),
-      100 * fraction_done(summary));
-  say("{}\n", jobs_table(overview.jobs));
-  say("{}\n", cpu_time_text(overview));
-  if (overview.worst) say("{}\n", invariants_text(*overview.worst));
-  if (!overview.running.empty()) say("{}\n", running_table(overview.running));
-  if (!overview.shards.empty()) say("{}\n", shards_table(overview.shards));
-  print_findings(overview);
+  std::string text =
+      fmt::format("{}: {} jobs, {:.1f} % of the work done\n\n{}\n{}\n", overview.path.string(),
+                  overview.jobs.size(), 100 * fraction_done(summary), jobs_table(overview.jobs),
+                  cpu_time_text(overview));
+  if (overview.worst) text += invariants_text(*overview.worst) + '\n';
+  if (!overview.running.empty()) text += running_table(overview.running) + '\n';
+  if (!overview.shards.empty()) text += shards_table(overview.shards) + '\n';
+  return text + findings_text(overview);
 }
 
 }  // namespace
 
-int status(const std::filesystem::path& path, bool json) {
-  const Overview overview = look(Reader(path));
-  if (json)
-    print_data(overview_json(overview).dump(2, ' ', false, ordered_json::error_handler_t::replace) +
-               '\n');
-  else
-    print_overview(overview);
+int status(const StatusOptions& options) {
+  const auto once = [&] {
+    const Overview overview = look(Reader(options.store));
+    if (!options.json) return overview_text(overview);
+    return options.watch_every ? one_line_json(overview_json(overview))
+                               : indented_json(overview_json(overview));
+  };
+  if (options.watch_every) return watch(once, *options.watch_every, options.json);
+  options.json ? print_data(once()) : print_lines(once());
   return exit_complete;
 }
 
 void print_outcome(const Reader& store) {
-  print_findings(look(store));
+  print_lines(findings_text(look(store)));
+}
+
+void print_outcome_json(const Reader& store, int exit_code) {
+  ordered_json outcome = overview_json(look(store));
+  outcome["exit_code"] = exit_code;
+  print_data(indented_json(outcome));
 }
 
 }  // namespace haff::campaign

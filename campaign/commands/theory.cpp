@@ -11,6 +11,7 @@
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/output.hpp"
 #include "campaign/base/text_table.hpp"
+#include "campaign/commands/json_output.hpp"
 #include "campaign/commands/theory_curves.hpp"
 
 namespace haff::campaign {
@@ -26,7 +27,14 @@ std::vector<double> range(double from, double to, double step) {
   return values;
 }
 
-void print_list() {
+void print_list(RowFormat format) {
+  if (format == RowFormat::json) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const TheoryCurve& curve : theory_curves())
+      list.push_back({{"curve", curve.name}, {"of", curve.variable}, {"what", curve.meaning}});
+    print_json(list);
+    return;
+  }
   TextTable table({{"curve", Align::left}, {"of", Align::left}, {"what", Align::left}});
   for (const TheoryCurve& curve : theory_curves())
     table.add({std::string(curve.name), std::string(curve.variable), std::string(curve.meaning)});
@@ -182,7 +190,7 @@ std::optional<std::vector<double>> values_from_text(std::string_view text) {
 
 int theory(const TheoryOptions& options) {
   if (options.list) {
-    print_list();
+    print_list(options.format);
     return exit_complete;
   }
   const TheoryCurve* curve = theory_curve(options.curve);

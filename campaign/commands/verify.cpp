@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <variant>
@@ -16,10 +17,13 @@
 #include "campaign/base/printable.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/commands/job_faults.hpp"
+#include "campaign/commands/json_output.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {
 namespace {
+
+using nlohmann::ordered_json;
 
 using schema::JobRow;
 using schema::Reader;
@@ -100,9 +104,15 @@ void print(const Findings& found, const std::filesystem::path& path) {
         path.string(), printable(why));
 }
 
+ordered_json json_of(const Findings& found, const std::string& size) {
+  return {{"sound", found.empty()}, {"holds", size},        {"faults", found.faults()},
+          {"file", found.file},     {"jobs", found.jobs},   {"states", found.states},
+          {"rows", found.rows},     {"newer", found.newer}, {"not_checked", found.unknown}};
+}
+
 }  // namespace
 
-int verify(const std::filesystem::path& path) {
+int verify(const std::filesystem::path& path, bool json) {
   if (!std::filesystem::exists(path)) static_cast<void>(Reader{path});  // throws: make it first
   Findings found;
   std::string size;
@@ -115,6 +125,10 @@ int verify(const std::filesystem::path& path) {
     found.file.emplace_back(damage.what());
   } catch (const schema::StoreError& error) {
     found.unknown.emplace_back(error.what());
+  }
+  if (json) {
+    print_json(json_of(found, size));
+    return found.empty() ? exit_complete : exit_failed;
   }
   if (found.empty()) {
     say("{}: sound ({})\n", path.string(), size);

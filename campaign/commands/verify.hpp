@@ -5,7 +5,7 @@
 
 namespace haff::campaign {
 
-// Prints what is wrong, if anything, and what helps; returns an ExitCode.
-int verify(const std::filesystem::path& store);
+// Prints what is wrong, if anything, and what helps, or the same as JSON; returns an ExitCode.
+int verify(const std::filesystem::path& store, bool json);
 
 }  // namespace haff::campaign

@@ -25,7 +25,10 @@ json to_json(const IdleReport&) {
 }
 
 json to_json(const LogReport& report) {
-  return {{"level", static_cast<int>(report.level)}, {"text", report.text}};
+  json object{
+      {"level", static_cast<int>(report.level)}, {"text", report.text}, {"event", report.event}};
+  if (report.job_id) object["job_id"] = *report.job_id;
+  return object;
 }
 
 }  // namespace
@@ -39,9 +42,12 @@ std::optional<Report> report_from_line(std::string_view line) {
   const json object = json::parse(line, nullptr, false);
   if (!object.is_object()) return std::nullopt;
   if (object.contains("idle")) return IdleReport{};
-  if (object.contains("text"))
-    return LogReport{static_cast<LogReport::Level>(object.value("level", 1)),
-                     object.value("text", "")};
+  if (object.contains("text")) {
+    LogReport report{static_cast<LogReport::Level>(object.value("level", 1)),
+                     object.value("text", ""), object.value("event", "message")};
+    if (object.contains("job_id")) report.job_id = object.value("job_id", std::int64_t{0});
+    return report;
+  }
   return ProgressReport{object.value("job_id", std::int64_t{0}), object.value("job", ""),
                         object.value("tau", 0.0), object.value("tau_max", 0.0),
                         object.value("collisions_per_second", 0.0)};

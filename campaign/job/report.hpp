@@ -27,6 +27,8 @@ struct LogReport {
   enum class Level { debug, info, warning, error };
   Level level = Level::info;
   std::string text;
+  std::string event = "message";            // what happened, as in the log for programs
+  std::optional<std::int64_t> job_id = {};  // to which job
 };
 
 using Report = std::variant<ProgressReport, IdleReport, LogReport>;

@@ -42,23 +42,6 @@ ordered_json running_json(const schema::RunningJob& job) {
   return object;
 }
 
-// What the box can hold by linear theory; null for gases that it does not treat.
-ordered_json box_json(const schema::Job& job) {
-  const auto box = box_report(job);
-  if (!box) return nullptr;
-  return {{"side", box->side},
-          {"vortex_length", box->vortex_length},
-          {"cluster_length", box->cluster_length},
-          {"vortices_across", box->vortices_across},
-          {"clusters_across", box->clusters_across},
-          {"fastest_wave", or_null(box->fastest_wave)},
-          {"fastest_rate", or_null(box->fastest_rate)},
-          {"waves_across", or_null(box->waves_across)},
-          {"grown_tau", or_null(box->grown_tau)},
-          {"haff_particles", box->haff_particles},
-          {"keeps_haff", box->keeps_haff}};
-}
-
 ordered_json series_json(const Series& series) {
   ordered_json object = physics_json(series.job);
   object.update({{"realizations_planned", series.planned},
@@ -91,6 +74,41 @@ ordered_json prediction_json(const std::optional<schema::Prediction>& prediction
   return {{"realizations", prediction->realizations}, {"cpu_seconds", prediction->cpu_seconds}};
 }
 
+ordered_json failure_json(const schema::JobRow& row) {
+  ordered_json object = physics_json(row.job);
+  object.update({{"job_id", row.job_id},
+                 {"seed", row.job.seed},
+                 {"status", name(row.status)},
+                 {"error", or_null(row.error)}});
+  return object;
+}
+
+ordered_json invariants_json(const schema::Invariants& worst) {
+  return {{"largest_overlap", worst.largest_overlap},
+          {"past_events", worst.past_events},
+          {"unresolved_collisions", worst.unresolved_collisions},
+          {"energy_mismatch", worst.energy_mismatch},
+          {"momentum_removed", worst.momentum_removed}};
+}
+
+}  // namespace
+
+ordered_json box_json(const schema::Job& job) {
+  const auto box = box_report(job);
+  if (!box) return nullptr;
+  return {{"side", box->side},
+          {"vortex_length", box->vortex_length},
+          {"cluster_length", box->cluster_length},
+          {"vortices_across", box->vortices_across},
+          {"clusters_across", box->clusters_across},
+          {"fastest_wave", or_null(box->fastest_wave)},
+          {"fastest_rate", or_null(box->fastest_rate)},
+          {"waves_across", or_null(box->waves_across)},
+          {"grown_tau", or_null(box->grown_tau)},
+          {"haff_particles", box->haff_particles},
+          {"keeps_haff", box->keeps_haff}};
+}
+
 ordered_json target_json(const TargetProgress& progress) {
   ordered_json object = physics_json(progress.job);
   const bool has_mean = progress.estimate.count > 0, has_error = progress.estimate.count > 1;
@@ -111,25 +129,6 @@ ordered_json target_json(const TargetProgress& progress) {
        {"verdict", name(progress.verdict)}});
   return object;
 }
-
-ordered_json failure_json(const schema::JobRow& row) {
-  ordered_json object = physics_json(row.job);
-  object.update({{"job_id", row.job_id},
-                 {"seed", row.job.seed},
-                 {"status", name(row.status)},
-                 {"error", or_null(row.error)}});
-  return object;
-}
-
-ordered_json invariants_json(const schema::Invariants& worst) {
-  return {{"largest_overlap", worst.largest_overlap},
-          {"past_events", worst.past_events},
-          {"unresolved_collisions", worst.unresolved_collisions},
-          {"energy_mismatch", worst.energy_mismatch},
-          {"momentum_removed", worst.momentum_removed}};
-}
-
-}  // namespace
 
 ordered_json overview_json(const Overview& overview) {
   const schema::Summary& summary = overview.summary;

@@ -8,7 +8,9 @@
 #include <chrono>
 #include <csignal>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "campaign/base/cpu_time.hpp"
@@ -30,7 +32,8 @@ using Level = LogReport::Level;
 
 constexpr auto listen_for = 100ms;     // at most, until something else is looked after
 constexpr auto look_after_store = 1s;  // dead owners, progress of other runs
-constexpr auto grace = 5s;             // to leave in order; a transaction cut short is undone
+constexpr auto log_progress_every = 10s;
+constexpr auto grace = 5s;  // to leave in order; a transaction cut short is undone
 
 // A log that is copied each second stays below the largest commits of a second. [bytes]
 constexpr std::int64_t remarkable_log = std::int64_t{64} << 20;
@@ -41,6 +44,20 @@ constexpr int hopeless = 5;
 // Kills in a row, without progress, that do not cost a job an attempt.
 constexpr int excused_kills = 10;
 
+std::string_view name(Level level) {
+  switch (level) {
+    case Level::debug:
+      return "debug";
+    case Level::info:
+      return "info";
+    case Level::warning:
+      return "warning";
+    case Level::error:
+      return "error";
+  }
+  return "error";
+}
+
 std::optional<Deadline> deadline_of(const RunOptions& options, Clock::time_point start) {
   if (!options.max_seconds) return std::nullopt;
   return Deadline(start) + std::chrono::duration<double>(*options.max_seconds);
@@ -49,10 +66,11 @@ std::optional<Deadline> deadline_of(const RunOptions& options, Clock::time_point
 class Coordinator {
  public:
   Coordinator(schema::Store& store, const RunOptions& options, Clock::time_point start,
-              std::size_t workers)
+              std::size_t workers, EventLog& log)
       : store_(store),
         options_(options),
         start_(start),
+        log_(log),
         display_(workers),
         ledger_(store),
         workers_(workers),
@@ -73,6 +91,7 @@ class Coordinator {
         ledger_.refresh(store_);
       }
       if (display_.is_due()) display_.show(ledger_.totals());
+      log_progress();
     }
   }
 
@@ -80,6 +99,45 @@ class Coordinator {
 
  private:
   bool is_stopping() const { return stopping_since_.has_value(); }
+
+  // To people, and to the log for programs.
+  void tell(const LogReport& what) {
+    display_.log(what.level, what.text);
+    if (!log_.is_open()) return;
+    nlohmann::ordered_json fields{{"level", name(what.level)}, {"text", what.text}};
+    if (what.job_id) fields["job_id"] = *what.job_id;
+    log_.add(what.event, fields);
+  }
+  void tell(Level level, const std::string& text, const char* event = "message",
+            std::optional<std::int64_t> job_id = {}) {
+    tell(LogReport{level, text, event, job_id});
+  }
+
+  void log_progress() {
+    if (!log_.is_open() || Clock::now() - progress_logged_ < log_progress_every) return;
+    progress_logged_ = Clock::now();
+    const Totals totals = ledger_.totals();
+    nlohmann::ordered_json fields{
+        {"jobs", totals.jobs},     {"done", totals.done},
+        {"failed", totals.failed}, {"fraction", totals.fraction},
+        {"seconds_left", nullptr}, {"running", nlohmann::ordered_json::array()}};
+    if (totals.seconds_left) fields["seconds_left"] = *totals.seconds_left;
+    for (const auto& [worker, report] : at_work_)
+      fields["running"].push_back({{"worker", worker},
+                                   {"job_id", report.job_id},
+                                   {"tau", report.tau},
+                                   {"tau_max", report.tau_max},
+                                   {"collisions_per_second", report.collisions_per_second}});
+    log_.add("progress", fields);
+  }
+
+  void set(std::size_t worker, const std::optional<ProgressReport>& report) {
+    display_.set(worker, report);
+    if (report)
+      at_work_[worker] = *report;
+    else
+      at_work_.erase(worker);
+  }
 
   bool is_anyone_alive() const {
     return std::any_of(workers_.begin(), workers_.end(),
@@ -107,11 +165,11 @@ class Coordinator {
       if (const auto* progress = std::get_if<ProgressReport>(&report)) {
         crashes_without_job_ = 0;
         ledger_.note(*progress);
-        display_.set(k, *progress);
+        set(k, *progress);
       } else if (const auto* log = std::get_if<LogReport>(&report)) {
-        display_.log(log->level, log->text);
+        tell(*log);
       } else {
-        display_.set(k, std::nullopt);
+        set(k, std::nullopt);
       }
     }
   }
@@ -120,7 +178,7 @@ class Coordinator {
     for (std::size_t k = 0; k < workers_.size(); ++k) {
       if (!workers_[k] || !workers_[k]->has_ended()) continue;
       take_reports(k);
-      display_.set(k, std::nullopt);
+      set(k, std::nullopt);
       const auto held = held_by(workers_[k]->identity());
       const WorkerProcess::End end = workers_[k]->reap();
       workers_[k].reset();
@@ -158,9 +216,10 @@ class Coordinator {
     if (held.empty()) look_out_for_hopelessness(end);
     for (const schema::RunningJob& job : held) {
       if (end.killed_by_us || is_stopping()) {
-        display_.log(Level::info,
-                     fmt::format("job {} ({}): {}; it goes on from its last checkpoint",
-                                 job.lease.job_id, describe(job.job), end.text()));
+        tell(Level::info,
+             fmt::format("job {} ({}): {}; it goes on from its last checkpoint", job.lease.job_id,
+                         describe(job.job), end.text()),
+             "worker_ended", job.lease.job_id);
         continue;
       }
       const std::string error =
@@ -168,9 +227,10 @@ class Coordinator {
                       job.progress.tau, job.progress.collisions);
       const bool is_excused = end.signal == SIGKILL && excuses_kill(job);
       const bool for_good = is_excused ? give_back(job.lease) : fail(job.lease, error);
-      display_.log(for_good ? Level::error : Level::warning,
-                   fmt::format("job {} ({}){}: {}", job.lease.job_id, describe(job.job),
-                               for_good ? " failed" : "", error));
+      tell(for_good ? Level::error : Level::warning,
+           fmt::format("job {} ({}){}: {}", job.lease.job_id, describe(job.job),
+                       for_good ? " failed" : "", error),
+           for_good ? "job_failed" : "worker_died", job.lease.job_id);
     }
     if (end.killed_by_us || is_stopping()) give_back(held);
   }
@@ -217,16 +277,17 @@ class Coordinator {
     looked_ = Clock::now();
     for (const schema::RunningJob& job : store_.running()) {
       if (is_mine(job.owner) || !leases_.is_abandoned(job) || !store_.reclaim(job.lease)) continue;
-      display_.log(Level::info,
-                   fmt::format("job {} ({}): its owner, process {} on {}, is gone; taken back",
-                               job.lease.job_id, describe(job.job), job.owner.pid, job.owner.host));
+      tell(Level::info,
+           fmt::format("job {} ({}): its owner, process {} on {}, is gone; taken back",
+                       job.lease.job_id, describe(job.job), job.owner.pid, job.owner.host),
+           "job_taken_back", job.lease.job_id);
     }
   }
 
   // Is the store still where it was, and does its log stay small?
   void look_after_file() {
     if (const auto what = store_.displaced()) {
-      display_.log(Level::error, fmt::format("{} {}; stopping", store_.path().string(), *what));
+      tell(Level::error, fmt::format("{} {}; stopping", store_.path().string(), *what), "stopping");
       end_.store_error = true;
       stop(SIGTERM);
       return;
@@ -234,10 +295,10 @@ class Coordinator {
     const schema::LogSize log = store_.copy_log();
     if (log.is_copied || log.bytes < remarkable_log || has_warned_of_log_) return;
     has_warned_of_log_ = true;
-    display_.log(Level::warning,
-                 fmt::format("{}-wal has grown to {} and grows on, since another program has been "
-                             "reading the store for long: end its query",
-                             store_.path().string(), bytes_text(static_cast<double>(log.bytes))));
+    tell(Level::warning,
+         fmt::format("{}-wal has grown to {} and grows on, since another program has been "
+                     "reading the store for long: end its query",
+                     store_.path().string(), bytes_text(static_cast<double>(log.bytes))));
   }
 
   bool is_mine(const schema::Owner& owner) const {
@@ -248,19 +309,19 @@ class Coordinator {
   void look_after_time() {
     const auto now = Clock::now();
     if (!is_stopping() && stop_signal() != 0) {
-      display_.log(Level::info,
-                   "stopping: workers store what they can (once more to stop at once)");
+      tell(Level::info, "stopping: workers store what they can (once more to stop at once)",
+           "stopping");
       stop(SIGTERM);
     }
     if (!is_stopping() && options_.max_seconds &&
         now - start_ > std::chrono::duration<double>(*options_.max_seconds)) {
       end_.over_limit = true;
-      display_.log(Level::info, "stopping: --max-time is over");
+      tell(Level::info, "stopping: --max-time is over", "stopping");
       stop(SIGUSR1);
     }
     if (!is_stopping() && options_.cpu_budget && cpu_spent() > *options_.cpu_budget) {
       end_.over_limit = true;
-      display_.log(Level::info, "stopping: --budget is spent");
+      tell(Level::info, "stopping: --budget is spent", "stopping");
       stop(SIGUSR1);
     }
     // A limit lets each worker store something first; a signal does not.
@@ -290,6 +351,9 @@ class Coordinator {
   schema::Store& store_;
   const RunOptions& options_;
   Clock::time_point start_;  // of the run, of which this may be a later round
+  EventLog& log_;
+  std::map<std::size_t, ProgressReport> at_work_;  // by worker
+  Clock::time_point progress_logged_;
   Display display_;
   Ledger ledger_;
   std::vector<std::unique_ptr<WorkerProcess>> workers_;
@@ -310,7 +374,7 @@ class Coordinator {
 }  // namespace
 
 RoundEnd run_round(schema::Store& store, const RunOptions& options,
-                   std::chrono::steady_clock::time_point start) {
+                   std::chrono::steady_clock::time_point start, EventLog& log) {
   const schema::Summary before = store.summary();
   const auto running = before.jobs.at(schema::Status::running);
   const auto useful = before.claimable + before.waiting + running;
@@ -320,7 +384,7 @@ RoundEnd run_round(schema::Store& store, const RunOptions& options,
   if (fit && running == 0 && before.claimable > 0 && !store.has_claimable(fit))
     return {.over_limit = true, .seconds_needed = least_seconds_needed(store)};
   const auto workers = std::min<std::int64_t>(options.workers, useful);
-  Coordinator coordinator(store, options, start, static_cast<std::size_t>(workers));
+  Coordinator coordinator(store, options, start, static_cast<std::size_t>(workers), log);
   coordinator.run();
   return coordinator.end();
 }

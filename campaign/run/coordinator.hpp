@@ -5,7 +5,9 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <string>
 
+#include "campaign/run/event_log.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {
@@ -16,6 +18,9 @@ struct RunOptions {
   int threads = 1;                    // of each worker
   std::optional<double> max_seconds;  // wall clock
   std::optional<double> cpu_budget;   // of all workers together [s]
+  std::filesystem::path log_json;     // events go here as lines of JSON; empty: nowhere
+  std::string on_finish;              // a command for the shell, given at the end; empty: none
+  bool json = false;                  // print what came of it as JSON
 };
 
 // What ended a round before its work was done.
@@ -30,6 +35,6 @@ struct RoundEnd {
 // Runs all that is pending and returns when all workers have ended. `start` is that of the whole
 // run, of which this may be a later round: its time limit counts from there.
 RoundEnd run_round(schema::Store& store, const RunOptions& options,
-                   std::chrono::steady_clock::time_point start);
+                   std::chrono::steady_clock::time_point start, EventLog& log);
 
 }  // namespace haff::campaign

@@ -50,7 +50,8 @@ Ending drive(Attempt& attempt, const Reporter& reporter) try {
   const std::string what = fmt::format(
       "{}; a law of \"restitution\" under \"effects\", \"threshold\" or \"tc\", goes on from there",
       collapse.what());
-  reporter.send(LogReport{Level::warning, fmt::format("{}: {}", name_of(attempt.claim()), what)});
+  reporter.send(LogReport{Level::warning, fmt::format("{}: {}", name_of(attempt.claim()), what),
+                          "job_collapsed", attempt.claim().lease.job_id});
   return attempt.collapse(what);
 }
 
@@ -66,7 +67,8 @@ std::optional<Failure> failure_of(Attempt& attempt, const Reporter& reporter) {
   bool again = true;
   try {
     if (drive(attempt, reporter) == Ending::finished)
-      reporter.send(LogReport{Level::info, name_of(attempt.claim()) + " done"});
+      reporter.send(LogReport{Level::info, name_of(attempt.claim()) + " done", "job_done",
+                              attempt.claim().lease.job_id});
     return std::nullopt;
   } catch (const schema::Damage& damage) {
     why = damage.what();
@@ -87,21 +89,25 @@ void fail(schema::Store& store, const schema::Claim& claim, const Failure& failu
           const Reporter& reporter) {
   const std::string& error = failure.why;
   if (store.fail(claim.lease, error, failure.again) == schema::Status::failed)
-    reporter.send(LogReport{Level::error, fmt::format("{} failed: {}", name_of(claim), error)});
+    reporter.send(LogReport{Level::error, fmt::format("{} failed: {}", name_of(claim), error),
+                            "job_failed", claim.lease.job_id});
   else
-    reporter.send(
-        LogReport{Level::warning, fmt::format("{}: attempt {} of {}: {}", name_of(claim),
-                                              claim.attempts + 1, schema::max_attempts, error)});
+    reporter.send(LogReport{Level::warning,
+                            fmt::format("{}: attempt {} of {}: {}", name_of(claim),
+                                        claim.attempts + 1, schema::max_attempts, error),
+                            "attempt_failed", claim.lease.job_id});
 }
 
 void work_on(schema::Store& store, const schema::Claim& claim, const Reporter& reporter,
              int threads) {
-  reporter.send(LogReport{Level::debug, name_of(claim) + " begins"});
+  reporter.send(
+      LogReport{Level::debug, name_of(claim) + " begins", "job_begun", claim.lease.job_id});
   Attempt attempt(store, claim, reporter, static_cast<unsigned>(threads));
   try {
     if (const auto failure = failure_of(attempt, reporter)) fail(store, claim, *failure, reporter);
   } catch (const schema::LeaseLost&) {
-    reporter.send(LogReport{Level::warning, name_of(claim) + " belongs to another worker now"});
+    reporter.send(LogReport{Level::warning, name_of(claim) + " belongs to another worker now",
+                            "job_lost", claim.lease.job_id});
   }
 }
 

@@ -223,6 +223,46 @@ test("text of a store stays text", async () => {
   assert.deepEqual(page.wrong, []);
 });
 
+// A server as a child process; resolves with its address once it says it.
+function serve(...words) {
+  const child = spawn(CAMPAIGN, ["report", "--store", "live.db", "--serve", ...words], {cwd: folder});
+  const address = new Promise((resolve, reject) => {
+    let text = "";
+    child.stdout.on("data", (data) => {
+      text += data;
+      const found = text.match(/http:\/\/127\.0\.0\.1:\d+\/[0-9a-f]{32}\//);
+      if (found) resolve(found[0]);
+    });
+    child.once("exit", (code) => reject(new Error(`it ended with ${code}: ${text}`)));
+  });
+  const ended = new Promise((resolve) => child.once("exit", resolve));
+  return {child, address, ended};
+}
+
+test("the served page follows a run, answers no other address, and stops at SIGTERM", async () => {
+  writeFileSync(join(folder, "live.json"), JSON.stringify({e: [0.8, 0.9], n: 0.4, N: 500, seeds: 2, tau_max: 30}));
+  campaign("plan", "live.json", "--store", "live.db");
+  const {child, address, ended} = serve();
+  const url = new URL(await address);
+  for (const path of ["/", "/data.json", `/${"0".repeat(32)}/`, url.pathname + "../jobs", url.pathname + "x"])
+    assert.equal((await fetch(url.origin + path)).status, 404, path);
+  assert.equal((await fetch(url, {method: "POST"})).status, 404);
+  const data = await (await fetch(new URL("data.json", url))).json();
+  assert.equal(data.jobs.pending, 6);
+
+  const page = await open(url.href, {}, false);
+  assert.match(await page.locator("#progress").textContent(), /0\.0 %/);
+  assert.equal(await legend(page).count(), 0);
+  campaign("run", "--store", "live.db");
+  await page.waitForFunction(() => /100\.0 %/.test(document.querySelector("#progress").textContent));
+  await page.waitForFunction(() => document.querySelectorAll("#curve-chart .legend button").length === 2);
+  assert.deepEqual(page.wrong, []);
+
+  child.kill("SIGTERM");
+  assert.equal(await ended, 0);
+  await page.waitForFunction(() => /does not answer/.test(document.querySelector("#live").textContent));
+});
+
 test("on a phone nothing sticks out, and two fingers stretch", async () => {
   const page = await open(report(), {viewport: {width: 390, height: 844}, isMobile: true, hasTouch: true,
     deviceScaleFactor: 2});

@@ -20,12 +20,14 @@ TEST_CASE("report: progress comes through") {
 }
 
 TEST_CASE("report: a log message with quotes and line ends is one line") {
-  const auto line = to_line(LogReport{LogReport::Level::error, "a \"b\"\nc"});
+  const auto line = to_line(LogReport{LogReport::Level::error, "a \"b\"\nc", "job_failed", 7});
   CHECK(line.find('\n') == line.size() - 1);
   const auto report = report_from_line(line);
   REQUIRE(report);
   CHECK(std::get<LogReport>(*report).text == "a \"b\"\nc");
   CHECK(std::get<LogReport>(*report).level == LogReport::Level::error);
+  CHECK(std::get<LogReport>(*report).event == "job_failed");
+  CHECK(std::get<LogReport>(*report).job_id == 7);
 }
 
 TEST_CASE("report: idle comes through") {
