@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "schema/file/header.hpp"
 #include "schema/file/patience.hpp"
 #include "schema/network.hpp"
 #include "schema/store.hpp"
@@ -31,6 +32,24 @@ bool has_log(const std::filesystem::path& file) {
   std::error_code none;
   const auto log = beside(file, "-wal");
   return std::filesystem::exists(log, none) && std::filesystem::file_size(log, none) > 0;
+}
+
+// A file at rest has no log: SQLite deletes the log before it says so in the file, and says that
+// there is one before it makes it. A log beside such a file is that of the file that was there
+// before it, and SQLite would take the pages of the one for those of the other.
+void must_be_log_of(SQLite::Database& sqlite, const std::filesystem::path& file,
+                    const std::filesystem::path& name) {
+  const auto is_at_rest = [&] {
+    const auto header = header_of(sqlite);
+    return header && !header->expects_log;
+  };
+  // Twice: a run may begin in between.
+  if (!is_at_rest() || !has_log(file) || !is_at_rest()) return;
+  const std::string log = beside(file, "-wal").string();
+  throw StoreError(name.string() + ": the log beside it, " + log +
+                   ", is that of another file, in whose place this one was put, or which was "
+                   "deleted; SQLite would mix the two. Move the log away, to where that file is if "
+                   "you still have it, then give the same command again");
 }
 
 std::string mode(SQLite::Database& sqlite) {
@@ -173,6 +192,7 @@ void Database::open_to_read() {
   const bool log_exists = identity_of(beside(file_, "-wal")).has_value();
   if (may_write(file_)) {
     sqlite_ = connection(file_.string(), SQLite::OPEN_READWRITE, file_system());
+    must_be_log_of(*sqlite_, file_, path_);
     // A log that was there stays there: its owner comes back for it.
     if (log_exists)
       sqlite3_db_config(sqlite_->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
@@ -206,6 +226,7 @@ void Database::open_to_observe() {
                       "-wal, to a folder of yours and read that copy" + in_the_way(path_));
   try {
     sqlite_ = connection(file_.string(), SQLite::OPEN_READONLY, observer_file_system());
+    must_be_log_of(*sqlite_, file_, path_);
     version_of(*sqlite_);  // the first look at the file
     return;
   } catch (const SQLite::Exception& error) {
@@ -224,6 +245,7 @@ void Database::open_to_write(Access access) {
   must_have_one_name(path_, file_);
   if (access == Access::create) make(path_, file_);
   sqlite_ = connection(file_.string(), SQLite::OPEN_READWRITE, file_system());
+  must_be_log_of(*sqlite_, file_, path_);
   if (sqlite3_db_readonly(sqlite_->getHandle(), "main") == 1)
     throw StoreError(path_.string() + ": may not be written" + in_the_way(path_));
   const bool is_new = is_empty(*sqlite_);
@@ -303,6 +325,10 @@ std::optional<std::string> Database::displaced() const {
   if (log_identity_ && identity_of(beside(file_, "-wal")) != log_identity_)
     return "has lost its log (" + beside(file_, "-wal").filename().string() +
            "), which was deleted or replaced";
+  // Nothing but copy_log() writes the file while there is a log, and it never makes it shorter.
+  const auto header = header_of(*sqlite_);
+  if (log_identity_ && header && (!header->expects_log || header->bytes < copied_bytes_))
+    return "was written over by another program";
   return std::nullopt;
 }
 
@@ -321,6 +347,8 @@ LogSize Database::copy_log() {
     const int result = sqlite3_wal_checkpoint_v2(copier_->getHandle(), "main",
                                                  SQLITE_CHECKPOINT_PASSIVE, &frames, &copied);
     if (result != SQLITE_OK) throw SQLite::Exception(copier_->getHandle(), result);
+    if (const auto header = header_of(*sqlite_); header && copied == frames)
+      copied_bytes_ = header->bytes;
     std::error_code none;
     const auto bytes = std::filesystem::file_size(beside(file_, "-wal"), none);
     return LogSize{.bytes = none ? 0 : static_cast<std::int64_t>(bytes),
@@ -330,12 +358,14 @@ LogSize Database::copy_log() {
 
 bool Database::close_log(std::chrono::milliseconds patience) {
   constexpr std::chrono::milliseconds pause{20};
-  copier_.reset();
-  if (displaced()) {
-    // SQLite deletes a log by its name, and would delete that of the file that took our place.
+  const auto is_displaced = [&] {
+    if (!displaced()) return false;
+    // SQLite would copy the log into the file that took our place, or delete that file's own log.
     sqlite3_db_config(sqlite_->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
-    return false;
-  }
+    return true;
+  };
+  copier_.reset();
+  if (is_displaced()) return false;
   const auto until = std::chrono::steady_clock::now() + patience;
   while (true) try {
       if (mode(*sqlite_) != "wal") return true;
@@ -345,10 +375,22 @@ bool Database::close_log(std::chrono::milliseconds patience) {
       }
       throw SQLite::Exception("the log stays", SQLITE_BUSY);
     } catch (const SQLite::Exception& error) {
+      if (is_displaced()) return false;
       if ((error.getErrorCode() & 0xff) != SQLITE_BUSY) raise(path_, error);
       if (std::chrono::steady_clock::now() >= until) return false;
       std::this_thread::sleep_for(pause);
     }
+}
+
+void Database::abandon_log(const std::filesystem::path& kept_as) {
+  const auto log = beside(file_, "-wal");
+  if (!log_identity_ || identity_of(log) != log_identity_) return;
+  std::error_code ignored;
+  if (kept_as.empty())
+    std::filesystem::remove(log, ignored);
+  else
+    std::filesystem::rename(log, kept_as, ignored);
+  std::filesystem::remove(beside(file_, "-shm"), ignored);
 }
 
 // Has an owner begun to write what is being read without locks? Then it is read with them.

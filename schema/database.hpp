@@ -9,6 +9,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -60,6 +61,9 @@ class Database {
   bool close_log(std::chrono::milliseconds patience = {});
   // What has happened to the file at the store's path, if it is no longer the one that is open.
   std::optional<std::string> displaced() const;
+  // Takes the log of a file that is displaced from beside the one that is in its place: deletes it,
+  // or keeps it under another name.
+  void abandon_log(const std::filesystem::path& kept_as = {});
   // The file is prepared for a log, but the log was not there when the store was opened.
   bool lacks_log() const { return lacks_log_; }
 
@@ -129,6 +133,7 @@ class Database {
   std::unique_ptr<SQLite::Database> original_;  // of an older version, or none
   std::unique_ptr<SQLite::Database> copier_;    // of the log
   std::optional<FileIdentity> file_identity_, log_identity_;
+  std::int64_t copied_bytes_ = 0;  // of the file, when the log was last copied into it
   bool writes_ = false;
   bool lacks_log_ = false;
   // Of a store that is read without locks: the file as it was when it was opened.

@@ -45,6 +45,12 @@ struct Damage : StoreError {
   using StoreError::StoreError;
 };
 
+// SQLite finds the pages of the file itself in disorder. No state and no job is to blame, and to
+// compute one again mends nothing.
+struct DamagedFile : Damage {
+  using Damage::Damage;
+};
+
 // SQL that does not parse, asks for what is not there, or would write.
 struct QueryError : StoreError {
   using StoreError::StoreError;

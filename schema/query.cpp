@@ -19,8 +19,9 @@ using Compiled = std::unique_ptr<sqlite3_stmt, Finalize>;
 void must_be_one_that_reads(sqlite3* handle, const std::string& sql) {
   const auto compile = [&](const char* text, const char** rest) {
     sqlite3_stmt* statement = nullptr;
-    if (sqlite3_prepare_v2(handle, text, -1, &statement, rest) != SQLITE_OK)
-      throw QueryError(std::string("SQL: ") + sqlite3_errmsg(handle));
+    if (const int result = sqlite3_prepare_v2(handle, text, -1, &statement, rest);
+        result != SQLITE_OK)
+      throw SQLite::Exception(handle, result);
     return Compiled(statement);
   };
   const char* rest = nullptr;
@@ -30,6 +31,23 @@ void must_be_one_that_reads(sqlite3* handle, const std::string& sql) {
     throw QueryError("SQL: this statement would write; a query only reads: " + sql);
   if (compile(rest, nullptr))
     throw QueryError("SQL: one statement at a time; not expected: " + std::string(rest));
+}
+
+// What a user typed is to blame, unless the store or the system is.
+[[noreturn]] void blame(Database& database, const SQLite::Exception& error) {
+  switch (error.getErrorCode() & 0xff) {  // without SQLite's extension of the code
+    case SQLITE_ERROR:
+    case SQLITE_AUTH:
+    case SQLITE_READONLY:
+    case SQLITE_TOOBIG:
+    case SQLITE_CONSTRAINT:
+    case SQLITE_MISMATCH:
+    case SQLITE_RANGE:
+    case SQLITE_MISUSE:
+      throw QueryError(std::string("SQL: ") + error.what());
+    default:
+      raise(database.path(), error);
+  }
 }
 
 Value value(const SQLite::Column& column) {
@@ -44,10 +62,11 @@ Value value(const SQLite::Column& column) {
 }  // namespace
 
 struct Query::Cursor {
+  Database& database;
   SQLite::Statement statement;
   std::vector<std::string> columns;
 
-  Cursor(SQLite::Database& sqlite, const std::string& sql) : statement(sqlite, sql) {
+  Cursor(Database& of, const std::string& sql) : database(of), statement(of.sqlite(), sql) {
     for (int i = 0; i < statement.getColumnCount(); ++i)
       columns.emplace_back(statement.getColumnName(i));
   }
@@ -55,9 +74,9 @@ struct Query::Cursor {
 
 Query::Query(Database& database, const std::string& sql) try {
   must_be_one_that_reads(database.sqlite().getHandle(), sql);
-  cursor_ = std::make_unique<Cursor>(database.sqlite(), sql);
+  cursor_ = std::make_unique<Cursor>(database, sql);
 } catch (const SQLite::Exception& error) {
-  throw QueryError(std::string("SQL: ") + error.what());
+  blame(database, error);
 }
 
 Query::~Query() = default;
@@ -75,7 +94,7 @@ std::optional<Row> Query::next() try {
     row.push_back(value(cursor_->statement.getColumn(i)));
   return row;
 } catch (const SQLite::Exception& error) {
-  throw QueryError(std::string("SQL: ") + error.what());
+  blame(cursor_->database, error);
 }
 
 }  // namespace haff::schema

@@ -390,6 +390,10 @@ std::optional<std::string> Store::displaced() const {
   return database().displaced();
 }
 
+void Store::abandon_log(const std::filesystem::path& kept_as) {
+  database().abandon_log(kept_as);
+}
+
 std::vector<Outcome> Store::add(const std::vector<Planned>& plan) {
   return database().transaction([&] {
     std::vector<Outcome> outcomes(plan.size());

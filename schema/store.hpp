@@ -345,6 +345,9 @@ class Store : public Reader {
   // What has happened to the file at the store's path, if it is no longer the one that is open:
   // "was deleted or moved away". Whatever is written from then on is lost when the store is closed.
   std::optional<std::string> displaced() const;
+  // The log of a store that is displaced must not stay beside another file: deletes it, or keeps it
+  // under another name.
+  void abandon_log(const std::filesystem::path& kept_as = {});
 
   // Add the jobs that are missing, extend those that are there with a smaller tau_max: one
   // transaction, outcomes in the order given. A cooling job's equilibration must be in the plan

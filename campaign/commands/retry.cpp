@@ -35,6 +35,8 @@ std::optional<std::string> damage_of(const schema::Reader& store, const schema::
       if (auto foreign = foreign_physics(store.checkpoint(row.job_id).value())) return foreign;
     if (!state && must_have_state) return "its state is gone";
     return std::nullopt;
+  } catch (const schema::DamagedFile&) {
+    throw;
   } catch (const schema::Damage& damage) {
     return damage.what();
   } catch (const DamagedCheckpoint& damage) {

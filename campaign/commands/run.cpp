@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "campaign/accuracy/targets.hpp"
+#include "campaign/base/command_text.hpp"
 #include "campaign/base/cpu_time.hpp"
 #include "campaign/base/duration.hpp"
 #include "campaign/base/exit_code.hpp"
@@ -76,29 +77,34 @@ void close_log(schema::Store& store) {
 
 // The file at the store's path is no longer the one that this run has written. What that one holds
 // can still be read by this process, as long as it has it open.
-int rescue(const schema::Store& store, const std::string& what) {
+int rescue(schema::Store& store, const std::string& what) {
+  const std::string name = store.path().string();
   std::filesystem::path saved;
   for (int k = 1; saved.empty() || std::filesystem::exists(saved); ++k)
-    saved = fmt::format("{}.rescued-{}", store.path().string(), k);
-  complain("campaign: {} {} while the run was on\n", store.path().string(), what);
+    saved = fmt::format("{}.rescued-{}", name, k);
+  complain("campaign: {} {} while the run was on\n", name, what);
   try {
     store.back_up(saved);
+    store.abandon_log();
     complain(
-        "All that it held, and what this run computed, is in {}: look at it, then put it in its "
+        "All of it that could still be read is in {0}: look at it ({1}), then put it in its "
         "place\n",
-        saved.string());
+        saved.string(), command_text("status", saved));
   } catch (const schema::StoreError& error) {
+    const std::filesystem::path log = saved.string() + "-log";
+    if (std::filesystem::exists(name)) store.abandon_log(log);
     complain(
-        "It could not be saved ({}). Lost is all that is in no copy of yours: it held {} "
-        "finished jobs\n",
-        error.what(), store.job_counts()[schema::Status::done]);
+        "What it held could not be saved ({}). Lost is all that this run computed, and what is in "
+        "no copy of yours. If {} is to be used as it is now, {} finds out whether it can be\n",
+        error.what(), name, command_text("verify", store.path()));
   }
   return exit_failed;
 }
 
 int work_to_the_end(schema::Store& store, const RunOptions& options, EventLog& log) {
+  store.open_log();
   const RoundEnd ended = run_rounds(store, options, log);
-  if (const auto what = store.displaced()) return rescue(store, *what);
+  if (store.displaced()) return exit_failed;
   const int exit_code = conclusion(store.summary(), progress_of(store, store.targets()), ended);
   if (options.json) {
     print_outcome_json(store, exit_code);
@@ -108,6 +114,17 @@ int work_to_the_end(schema::Store& store, const RunOptions& options, EventLog& l
   }
   close_log(store);
   return exit_code;
+}
+
+int work_or_rescue(schema::Store& store, const RunOptions& options, EventLog& log) {
+  int exit_code = exit_failed;
+  try {
+    exit_code = work_to_the_end(store, options, log);
+  } catch (const schema::StoreError&) {
+    if (!store.displaced()) throw;
+  }
+  const auto what = store.displaced();
+  return what ? rescue(store, *what) : exit_code;
 }
 
 void log_start(const RunOptions& options, EventLog& log) {
@@ -150,8 +167,7 @@ int run(const RunOptions& options) {
   try {
     schema::Store store = schema::Store::open(options.store);
     store.wait_for_locks_while(may_wait_for_locks);
-    store.open_log();
-    exit_code = work_to_the_end(store, options, log);
+    exit_code = work_or_rescue(store, options, log);
   } catch (const std::exception& error) {
     log.add("message", {{"level", "error"}, {"text", error.what()}});
     announce_end(options, exit_failed, log);

@@ -5,9 +5,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "campaign/base/duration.hpp"
+#include "campaign/base/command_text.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/job_text.hpp"
 #include "campaign/base/number_text.hpp"
@@ -167,8 +169,13 @@ std::string overview_text(const Overview& overview) {
 }  // namespace
 
 int status(const StatusOptions& options) {
+  bool has_warned = false;
   const auto once = [&] {
-    const Overview overview = look(Reader(options.store));
+    const Reader store(options.store);
+    if (store.lacks_log() && !std::exchange(has_warned, true))
+      complain("campaign: {}: its newest rows may be missing, as the log beside it is; see: {}\n",
+               options.store.string(), command_text("verify", options.store));
+    const Overview overview = look(store);
     if (!options.json) return overview_text(overview);
     return options.watch_every ? one_line_json(overview_json(overview))
                                : indented_json(overview_json(overview));

@@ -37,8 +37,10 @@ struct Findings {
   std::vector<std::string> newer;    // of a newer program
   std::vector<std::string> unknown;  // what the system would not let us read
 
+  bool lacks_log = false;  // a copy made while a run was on
+
   std::size_t faults() const { return file.size() + jobs.size() + states.size() + rows.size(); }
-  bool empty() const { return faults() + newer.size() + unknown.size() == 0; }
+  bool empty() const { return faults() + newer.size() + unknown.size() == 0 && !lacks_log; }
 };
 
 std::map<std::int64_t, std::string> stored_identities(const Reader& store) {
@@ -93,9 +95,15 @@ void print(const Findings& found, const std::filesystem::path& path) {
   if (!found.file.empty())
     say("The file itself is damaged. Go back to a backup of it, or save what can still be "
         "read with SQLite's .recover (see schema/README.md); keep the file until then\n");
-  if (!found.states.empty())
+  // Where the file itself is damaged, a state computed again would not be safe either.
+  if (!found.states.empty() && found.file.empty())
     say("A damaged checkpoint is never used; {} lets its job be computed again\n",
         command_text("retry", path));
+  if (found.lacks_log)
+    say("{0}: was copied, or left, while a run was on, without the log beside it, {0}-wal, and "
+        "lacks the rows in there. What is missing is computed again by: {1}\nA whole copy is made "
+        "by: campaign backup FILE\n",
+        path.string(), command_text("run", path));
   if (!found.newer.empty())
     say("{}: a newer program wrote some of it; update campaign\n", path.string());
   for (const std::string& why : found.unknown)
@@ -118,11 +126,14 @@ int verify(const std::filesystem::path& path, bool json) {
   std::string size;
   try {
     const Reader store(path);
+    found.lacks_log = store.lacks_log();
     found.file = store.faults();
     look_at_jobs(store, found);
     size = size_text(store);
   } catch (const schema::Damage& damage) {
     found.file.emplace_back(damage.what());
+  } catch (const schema::NameError&) {
+    throw;
   } catch (const schema::StoreError& error) {
     found.unknown.emplace_back(error.what());
   }

@@ -54,7 +54,7 @@ HostLock::HostLock(const fs::path& store, bool is_run)
 
 HostLock::HostLock(const fs::path& store, bool is_run, bool is_on_network, const schema::Owner& me,
                    std::chrono::milliseconds patience)
-    : file_(store.string() + ".host") {
+    : file_(fs::weakly_canonical(store).string() + ".host") {
   if (!is_on_network) return;
   constexpr std::chrono::milliseconds pause{100};
   const auto until = std::chrono::steady_clock::now() + patience;

@@ -70,6 +70,8 @@ std::optional<Failure> failure_of(Attempt& attempt, const Reporter& reporter) {
       reporter.send(LogReport{Level::info, name_of(attempt.claim()) + " done", "job_done",
                               attempt.claim().lease.job_id});
     return std::nullopt;
+  } catch (const schema::DamagedFile&) {
+    throw;
   } catch (const schema::Damage& damage) {
     why = damage.what();
   } catch (const schema::StoreError&) {

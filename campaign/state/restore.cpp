@@ -58,6 +58,8 @@ std::optional<engine::State> newest_state(const schema::Reader& store, std::int6
   };
   try {
     return stored_state(store, job_id, job);
+  } catch (const schema::DamagedFile&) {
+    throw;
   } catch (const schema::Damage& damage) {
     throw damaged(damage);
   } catch (const DamagedCheckpoint& damage) {

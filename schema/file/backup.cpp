@@ -45,9 +45,10 @@ constexpr const char* give_back_running_jobs = R"(
 void must_be_sound(SQLite::Database& copy, const std::filesystem::path& store) {
   const std::string found = copy.execAndGet("PRAGMA integrity_check(1)").getString();
   if (found != "ok")
-    throw Damage(store.string() + ": is damaged (" + found +
-                 "), and a copy of it would be; no backup was made. See: campaign verify --store " +
-                 store.string());
+    throw DamagedFile(
+        store.string() + ": is damaged (" + found +
+        "), and a copy of it would be; no backup was made. See: campaign verify --store " +
+        store.string());
 }
 
 [[noreturn]] void exists_already(const std::filesystem::path& to) {

@@ -127,10 +127,11 @@ int characteristics(sqlite3_file* file) {
 int map_shared(sqlite3_file* file, int region, int size, int extend, void volatile** memory) {
   const int result = below(file)->pMethods->xShmMap(below(file), region, size, extend, memory);
   const int kind = result & 0xff;
-  // BUSY, READONLY and their like are answers, which SQLite knows what to do with.
-  return kind == SQLITE_IOERR || kind == SQLITE_CANTOPEN || kind == SQLITE_NOMEM
-             ? noted(result, file, Operation::map)
-             : result;
+  // BUSY, READONLY and their like are answers, which SQLite knows what to do with. The file of the
+  // index is not that of LAST_ERRNO.
+  if (kind == SQLITE_IOERR || kind == SQLITE_CANTOPEN || kind == SQLITE_NOMEM)
+    note(Operation::map, own(file)->name, errno);
+  return result;
 }
 
 int lock_shared(sqlite3_file* file, int offset, int count, int flags) {

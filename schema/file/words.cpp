@@ -235,10 +235,11 @@ void raise(const std::filesystem::path& store, const SQLite::Exception& error) {
     case SQLITE_INTERRUPT:
       throw Unavailable(file + ": what was asked of it was stopped by a signal");
     case SQLITE_CORRUPT:
-      throw Damage(file + ": is damaged (" + said + "); see: campaign verify --store " + file);
+      throw DamagedFile(file + ": is damaged (" + said + "); see: campaign verify --store " + file);
     case SQLITE_NOTADB:
       if (bears_our_mark(store))
-        throw Damage(file + ": is damaged: its first page is no longer that of an SQLite file");
+        throw DamagedFile(file +
+                          ": is damaged: its first page is no longer that of an SQLite file");
       throw NameError(file + ": is not an SQLite file; name a store with --store FILE");
     case SQLITE_READONLY:
       if (error.getExtendedErrorCode() == SQLITE_READONLY_ROLLBACK)
@@ -247,6 +248,8 @@ void raise(const std::filesystem::path& store, const SQLite::Exception& error) {
                           "undone before the store can be read, which takes the right to write "
                           "it" +
                           in_the_way(store));
+      if (error.getExtendedErrorCode() == SQLITE_READONLY_DBMOVED)
+        throw Unavailable(file + ": was deleted, moved away or replaced while it was used");
       throw StoreError(file + ": may not be written (" + said + ")" + in_the_way(store));
     default:
       throw StoreError(file + ": " + said);

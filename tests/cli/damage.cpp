@@ -89,6 +89,27 @@ TEST_CASE("damage: cooling does not start from a damaged equilibration") {
   CHECK(campaign(folder, {"verify"}).exit_code == 0);
 }
 
+TEST_CASE("damage: no command blames a job, or what was typed, for a damaged file") {
+  const Folder folder;
+  run(folder, short_grid);
+  plan(folder, R"({"e": 0.9, "n": 0.4, "N": 500, "seeds": [1, 2], "tau_max": 30})");
+  const auto page =
+      static_cast<int>(number(folder, "SELECT rootpage FROM sqlite_schema WHERE name = 'samples'"));
+  shell(folder,
+        "head -c 4096 /dev/zero | tr '\\0' U | dd of=campaign.db bs=4096 conv=notrunc seek=" +
+            std::to_string(page - 1));
+  for (const char* command : {"run", "retry", "figures", "verify"}) {
+    CAPTURE(std::string(command));
+    const Outcome outcome = campaign(folder, {command});
+    CHECK(outcome.exit_code == 1);
+    CHECK((outcome.out + outcome.err).find("campaign.db: is damaged (") != std::string::npos);
+    CHECK((outcome.out + outcome.err).find("campaign retry") == std::string::npos);
+  }
+  CHECK(campaign(folder, {"query", "SELECT count(*) FROM samples"}).exit_code == 1);
+  CHECK(campaign(folder, {"query", "SELECT count(*) FRM samples"}).exit_code == 2);
+  CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'failed'") == 0);
+}
+
 TEST_CASE("damage: verify names a sample that is missing") {
   const Folder folder;
   run(folder, short_grid);

@@ -55,6 +55,7 @@ TEST_CASE("store file: deleted, moved or replaced under a run, it is noticed and
   check_vanished("rm campaign.db*", "was deleted or moved away");
   check_vanished("mv campaign.db other.db", "was deleted or moved away");
   check_vanished("mv old.db campaign.db", "was replaced by another file");
+  check_vanished("cp old.db campaign.db", "was written over by another program");
 }
 
 TEST_CASE("store file: a backup during a run is sound and can be run") {
@@ -70,6 +71,72 @@ TEST_CASE("store file: a backup during a run is sound and can be run") {
   CHECK(again.err.find("exists already") != std::string::npos);
   run.signal(SIGTERM);
   CHECK(run.wait().exit_code == 143);
+}
+
+TEST_CASE("store file: what took the place of a running store is as it was put there") {
+  for (const char* command : {"mv old.db campaign.db", "cp old.db campaign.db"}) {
+    CAPTURE(std::string(command));
+    const Folder folder;
+    plan(folder, grid);
+    shell(folder, "cp campaign.db old.db; cp campaign.db same.db");
+    Program run(folder, {"run", "--workers", "2"});
+    wait_for_work(folder);
+    shell(folder, command);
+    CHECK(run.wait().exit_code == 1);
+    CHECK(shell(folder, "cmp campaign.db same.db").exit_code == 0);
+    CHECK_FALSE(std::filesystem::exists(folder / "campaign.db-wal"));
+  }
+}
+
+TEST_CASE("store file: emptied under a run, it is no success") {
+  const Folder folder;
+  plan(folder, grid);
+  Program run(folder, {"run", "--workers", "1"});
+  wait_for_work(folder);
+  shell(folder, ": > campaign.db");
+  const Outcome outcome = run.wait();
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.err.find("campaign.db was written over by another program") != std::string::npos);
+}
+
+TEST_CASE("store file: a backup put over a killed run is not mixed with the log beside it") {
+  const Folder folder;
+  plan(folder, grid);
+  shell(folder, "cp campaign.db backup.db");
+  {
+    const Program run(folder, {"run", "--workers", "1"});
+    wait_for_work(folder);
+    for (const pid_t worker : run.workers()) kill(worker, SIGKILL);
+  }  // and the run itself
+  REQUIRE(std::filesystem::exists(folder / "campaign.db-wal"));
+  shell(folder, "cp backup.db campaign.db");
+  for (const char* command : {"status", "verify", "run", "retry"}) {
+    CAPTURE(std::string(command));
+    const Outcome outcome = campaign(folder, {command});
+    CHECK(outcome.exit_code == 1);
+    CHECK((outcome.out + outcome.err).find("is that of another file") != std::string::npos);
+  }
+  shell(folder, "mv campaign.db-wal away");
+  CHECK(campaign(folder, {"verify"}).exit_code == 0);
+}
+
+TEST_CASE("store file: a copy made without its log is known as one") {
+  const Folder folder;
+  plan(folder, grid);
+  Program run(folder, {"run", "--workers", "1"});
+  wait_for_work(folder);
+  shell(folder, "kill -STOP " + std::to_string(run.id()) + "; sleep 0.1; cp campaign.db copy.db; " +
+                    "kill -CONT " + std::to_string(run.id()));
+  run.signal(SIGTERM);
+  CHECK(run.wait().exit_code == 143);
+  const Outcome verified = campaign(folder, {"verify", "--store", "copy.db"});
+  CHECK(verified.exit_code == 1);
+  CHECK(verified.out.find("without the log beside it") != std::string::npos);
+  const Outcome status = campaign(folder, {"status", "--store", "copy.db"});
+  CHECK(status.exit_code == 0);
+  CHECK(status.err.find("its newest rows may be missing") != std::string::npos);
+  CHECK(campaign(folder, {"run", "--store", "copy.db", "--max-time", "2s"}).exit_code != 1);
+  CHECK(campaign(folder, {"verify", "--store", "copy.db"}).exit_code == 0);
 }
 
 TEST_CASE("store file: after a run no log is beside it") {

@@ -423,12 +423,46 @@ TEST_CASE("a store that vanishes from under its writer is noticed, and saved fro
     CHECK_FALSE(store.close_log({}));
     CHECK(contents(path) == other);
   }
+  SUBCASE("written over by another store") {
+    store.copy_log();
+    Store::create(folder / "b.db");
+    std::filesystem::copy_file(folder / "b.db", path,
+                               std::filesystem::copy_options::overwrite_existing);
+    CHECK(store.displaced() == "was written over by another program");
+    const std::string other = contents(path);
+    CHECK_FALSE(store.close_log({}));
+    store.abandon_log();
+    CHECK(contents(path) == other);
+    CHECK_FALSE(std::filesystem::exists(path.string() + "-wal"));
+    return;  // what it held is gone
+  }
+  SUBCASE("cut short") {
+    store.copy_log();
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
+    CHECK(store.displaced() == "was written over by another program");
+    return;
+  }
   SUBCASE("without its log") {
     std::filesystem::remove(path.string() + "-wal");
     CHECK(store.displaced() == "has lost its log (a.db-wal), which was deleted or replaced");
   }
   store.back_up(folder / "saved.db");
   CHECK(Reader(folder / "saved.db").jobs().size() == 2);
+}
+
+TEST_CASE("a log beside a store that never had one is another file's") {
+  const TemporaryFolder folder;
+  Store::create(folder / "a.db").add(plan({cooling()}));
+  Store running = Store::create(folder / "b.db");
+  running.open_log();
+  running.add(plan({cooling()}));
+  std::filesystem::copy_file(folder / "b.db-wal", folder / "a.db-wal");
+  const std::string whole = contents(folder / "a.db");
+  CHECK(refusal([&] { Reader(folder / "a.db"); }).find("is that of another file") !=
+        std::string::npos);
+  CHECK(refusal([&] { Store::open(folder / "a.db"); }).find("is that of another file") !=
+        std::string::npos);
+  CHECK(contents(folder / "a.db") == whole);
 }
 
 TEST_CASE("a store with two names is not written") {
