@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "campaign/base/duration.hpp"
 #include "campaign/base/command_text.hpp"
+#include "campaign/base/duration.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/job_text.hpp"
 #include "campaign/base/number_text.hpp"

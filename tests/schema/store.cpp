@@ -536,7 +536,8 @@ TEST_CASE("a writer killed at any moment leaves samples and checkpoint of one co
         const auto now = Reader(path).last_sample(1, 1e9);
         return now && (!before || now->tau > before->tau);
       };
-      while (!has_committed() && std::chrono::steady_clock::now() - begin < std::chrono::seconds(10))
+      while (!has_committed() &&
+             std::chrono::steady_clock::now() - begin < std::chrono::seconds(10))
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5 + 7 * (kill_after % 10)));
