@@ -100,9 +100,11 @@ void print(const Findings& found, const std::filesystem::path& path) {
     say("A damaged checkpoint is never used; {} lets its job be computed again\n",
         command_text("retry", path));
   if (found.lacks_log)
-    say("{0}: was copied, or left, while a run was on, without the log beside it, {0}-wal, and "
-        "lacks the rows in there. What is missing is computed again by: {1}\nA whole copy is made "
-        "by: campaign backup FILE\n",
+    say("{0}: the log that belongs to it, {0}-wal, is not there: it was copied while a run was on, "
+        "or "
+        "power failed at the end of one. Its newest rows may be missing; what is, is computed "
+        "again "
+        "by: {1}\nA whole copy is made by: campaign backup FILE\n",
         path.string(), command_text("run", path));
   if (!found.newer.empty())
     say("{}: a newer program wrote some of it; update campaign\n", path.string());
