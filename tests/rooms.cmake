@@ -13,11 +13,14 @@ set(planning job)
 set(results state)
 set(plot base)
 set(accuracy planning results plot)
+set(curves accuracy)
 set(paper results plot)
+set(figures curves paper)
 set(cluster run planning)
 set(report accuracy cluster)
-set(commands run accuracy paper cluster report)
-set(folders base state job run planning results plot accuracy paper cluster report commands)
+set(commands run figures cluster report)
+set(folders base state job run planning results plot accuracy curves paper figures cluster report
+  commands)
 
 # The includes "<prefix>NAME/..." of a file, as a list of NAME.
 function(included_folders file prefix result)

@@ -4,7 +4,6 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -164,8 +163,10 @@ void print_differences(const std::vector<Difference>& differences, std::ostream&
                    {"", Align::left}});
   for (const Difference& each : differences)
     table.add({describe(each.quantity), number_text(each.job.n), count_text(each.job.particles),
-               count_text(static_cast<long long>(each.pairs)), value_text(each.value, each.error),
-               error_text(each.error), error_text(each.independent), apart(each)});
+               count_text(static_cast<long long>(each.difference.pairs)),
+               value_text(each.difference.value, each.difference.error),
+               error_text(each.difference.error), error_text(each.difference.independent),
+               apart(each)});
   if (!table.empty())
     fmt::print(report,
                "Differences of gases that started from the same states, seed by seed: what chance "
@@ -424,30 +425,6 @@ void write_csv(const Assessment& assessment, const std::vector<Advice>& advised,
   write_file(file, text);
 }
 
-std::optional<double> number_from(const std::string& text) {
-  double number = 0;
-  const char* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, number);
-  if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
-
-// In a window, "3:8", or at one tau, "20".
-std::optional<Quantity> quantity_in(Measure measure, const std::string& window) {
-  const auto colon = window.find(':');
-  const auto from = number_from(window.substr(0, colon));
-  if (!from || *from < 0 || measure == Measure::tau_c) return std::nullopt;
-  if (colon == std::string::npos) {
-    const Quantity quantity = usual_quantity(measure, *from);
-    if (is_laguerre(measure) || quantity.from < 0) return std::nullopt;
-    return quantity;
-  }
-  const auto to = number_from(window.substr(colon + 1));
-  if (!to || *from >= *to || !(is_laguerre(measure) || measure == Measure::gamma_ratio))
-    return std::nullopt;
-  return Quantity{.measure = measure, .from = *from, .to = *to};
-}
-
 // Quantities that are not among the usual ones.
 std::vector<Quantity> asked_by(const CostRequest& request) {
   std::vector<Quantity> all;
@@ -475,11 +452,11 @@ std::optional<CostTarget> target_from_text(const std::string& text) {
   if (equals == std::string::npos) return std::nullopt;
   const auto at = std::min(text.find('@'), equals);
   const auto measure = measure_named(text.substr(0, at));
-  const auto error = number_from(text.substr(equals + 1));
+  const auto error = number_in(text.substr(equals + 1));
   if (!measure || !error || !(*error > 0)) return std::nullopt;
   CostTarget target{.measure = *measure, .error = *error};
   if (at < equals) {
-    target.quantity = quantity_in(*measure, text.substr(at + 1, equals - at - 1));
+    target.quantity = quantity_at(*measure, text.substr(at + 1, equals - at - 1));
     if (!target.quantity) return std::nullopt;
   }
   return target;

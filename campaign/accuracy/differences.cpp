@@ -8,13 +8,6 @@
 namespace haff::campaign {
 namespace {
 
-// Of one run, whatever cools it: series of equal text share their equilibrated states.
-std::string equilibration_of(const FinishedSeries& series) {
-  schema::Job job = schema::equilibration_of(series.job);
-  job.seed = 0;
-  return schema::identity(job);
-}
-
 std::map<std::uint64_t, double> values_by_seed(const Quantity& quantity,
                                                const FinishedSeries& series) {
   std::map<std::uint64_t, double> values;
@@ -25,8 +18,23 @@ std::map<std::uint64_t, double> values_by_seed(const Quantity& quantity,
 
 void add_difference(const Quantity& quantity, const FinishedSeries& series,
                     const FinishedSeries& reference, std::vector<Difference>& all) {
-  const auto ours = values_by_seed(quantity, series);
-  const auto theirs = values_by_seed(quantity, reference);
+  const auto difference =
+      paired_difference(values_by_seed(quantity, series), values_by_seed(quantity, reference));
+  if (!difference) return;
+  all.push_back({.quantity = quantity,
+                 .job = series.job,
+                 .reference = reference.job,
+                 .difference = *difference});
+}
+
+}  // namespace
+
+std::string common_start(const schema::Job& job) {
+  return schema::series_identity(schema::equilibration_of(job));
+}
+
+std::optional<PairedDifference> paired_difference(const std::map<std::uint64_t, double>& ours,
+                                                  const std::map<std::uint64_t, double>& theirs) {
   std::vector<double> a, b, differences;
   for (const auto& [seed, value] : ours) {
     const auto found = theirs.find(seed);
@@ -35,25 +43,20 @@ void add_difference(const Quantity& quantity, const FinishedSeries& series,
     b.push_back(found->second);
     differences.push_back(value - found->second);
   }
-  if (differences.size() < 2) return;
+  if (differences.size() < 2) return std::nullopt;
   const auto mean = analysis::estimate(differences);
-  all.push_back({.quantity = quantity,
-                 .job = series.job,
-                 .reference = reference.job,
-                 .pairs = differences.size(),
-                 .value = mean.mean,
-                 .error = mean.standard_error,
-                 .independent = std::hypot(analysis::estimate(a).standard_error,
-                                           analysis::estimate(b).standard_error)});
+  return PairedDifference{.pairs = differences.size(),
+                          .value = mean.mean,
+                          .error = mean.standard_error,
+                          .independent = std::hypot(analysis::estimate(a).standard_error,
+                                                    analysis::estimate(b).standard_error)};
 }
-
-}  // namespace
 
 std::vector<Difference> paired_differences(const std::vector<FinishedSeries>& all,
                                            const std::vector<Quantity>& quantities) {
   std::map<std::string, std::vector<const FinishedSeries*>> by_equilibration;
   for (const FinishedSeries& series : all)
-    by_equilibration[equilibration_of(series)].push_back(&series);
+    by_equilibration[common_start(series.job)].push_back(&series);
   std::vector<Difference> differences;
   for (const Quantity& quantity : quantities)
     for (const auto& [key, series] : by_equilibration)

@@ -3,6 +3,9 @@
 // not in the error of such a difference, which is therefore often the smaller one, at no cost.
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,13 +13,25 @@
 
 namespace haff::campaign {
 
+// Names the equilibrated states that runs start from: of equal text, runs of one seed start from
+// the same state.
+std::string common_start(const schema::Job& job);
+
+struct PairedDifference {
+  std::size_t pairs = 0;   // seeds that both have, two at least
+  double value = 0;        // mean of ours less theirs
+  double error = 0;        // standard error of value
+  double independent = 0;  // what it would be of as many seeds that have nothing in common
+};
+
+// Of values by seed; nothing of fewer than two seeds that both have.
+std::optional<PairedDifference> paired_difference(const std::map<std::uint64_t, double>& ours,
+                                                  const std::map<std::uint64_t, double>& theirs);
+
 struct Difference {
   Quantity quantity;
   schema::Job job, reference;  // of one seed each
-  std::size_t pairs = 0;       // seeds that both have, two at least
-  double value = 0;            // mean of job's less reference's
-  double error = 0;            // standard error of value
-  double independent = 0;      // what it would be of as many seeds that have nothing in common
+  PairedDifference difference;
 };
 
 // Of each series and the next one that shares its equilibrations, for these quantities.

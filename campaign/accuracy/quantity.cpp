@@ -10,6 +10,7 @@
 #include "analysis/statistics/interpolation.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "analysis/theory/cooling.hpp"
+#include "campaign/base/number_text.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -121,6 +122,21 @@ Quantity usual_quantity(Measure measure, double tau) {
     default:
       return {.measure = measure, .from = tau, .to = tau};
   }
+}
+
+std::optional<Quantity> quantity_at(Measure measure, const std::string& window) {
+  const auto colon = window.find(':');
+  const auto from = number_in(window.substr(0, colon));
+  if (!from || *from < 0 || measure == Measure::tau_c) return std::nullopt;
+  if (colon == std::string::npos) {
+    const Quantity quantity = usual_quantity(measure, *from);
+    if (is_laguerre(measure) || quantity.from < 0) return std::nullopt;
+    return quantity;
+  }
+  const auto to = number_in(window.substr(colon + 1));
+  if (!to || *from >= *to || !(is_laguerre(measure) || measure == Measure::gamma_ratio))
+    return std::nullopt;
+  return Quantity{.measure = measure, .from = *from, .to = *to};
 }
 
 Quantity quantity_of(const schema::Target& target) {

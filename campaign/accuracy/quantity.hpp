@@ -23,6 +23,9 @@ struct Quantity {
 // Over a usual window: of the plateau of a2, a3 and a4, which needs no tau; of 2 to either side of
 // tau for gamma_ratio; at tau for the others, G_parallel at 5 sigma. tau_c needs none.
 Quantity usual_quantity(Measure measure, double tau = 0);
+// In a window, "3:8", or at one tau, "20", of which gamma_ratio takes 2 to either side. Nothing if
+// the measure cannot have it, or the text is neither.
+std::optional<Quantity> quantity_at(Measure measure, const std::string& window);
 Quantity quantity_of(const schema::Target& target);
 bool is_laguerre(Measure measure);  // a2, a3, a4
 

@@ -1,12 +1,17 @@
-// Numbers as text, for tables, captions and messages.
+// Numbers as text, for tables, captions and messages; and back.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace haff::campaign {
 
 // The shortest text that reads back as the same number.
 std::string number_text(double value);
+
+// The number that is all of this text; nothing for anything else, or for what is not finite.
+std::optional<double> number_in(std::string_view text);
 
 // A value with the digits that its error leaves it, two of those that are uncertain: 57.49. Five
 // digits where the error is not known.

@@ -51,6 +51,10 @@ void print_data(std::string_view text) {
   isatty(STDOUT_FILENO) == 1 ? print_lines(text) : write_out(text);
 }
 
+void print_as_is(std::string_view text) {
+  write_out(text);
+}
+
 int PrintableStream::overflow(int character) {
   const char single = static_cast<char>(character);
   return xsputn(&single, 1) == 1 ? character : EOF;

@@ -35,6 +35,9 @@ void complain(fmt::format_string<Values...> format, Values&&... values) {
 // Prints data for programs: as it is into a file or a pipe, made printable on a terminal.
 void print_data(std::string_view text);
 
+// Prints what was made printable part by part, with the colours between.
+void print_as_is(std::string_view text);
+
 // A stream whose lines go through print_lines, each as soon as it is whole.
 class PrintableStream : private std::streambuf, public std::ostream {
  public:

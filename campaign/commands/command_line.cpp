@@ -12,6 +12,7 @@
 #include "campaign/base/duration.hpp"
 #include "campaign/base/exit_code.hpp"
 #include "campaign/base/machine.hpp"
+#include "campaign/base/number_text.hpp"
 #include "campaign/base/output.hpp"
 #include "campaign/base/version.hpp"
 #include "campaign/commands/documents.hpp"
@@ -183,15 +184,106 @@ CLI::App* add_query(CLI::App& app, QueryCommand& options) {
 }
 
 CLI::App* add_figures(CLI::App& app, FigureRequest& options) {
-  auto* command = app.add_subcommand("figures", "Draw the paper's figures");
+  auto* command =
+      app.add_subcommand("figures", "Draw the paper's figures and those of all gases, and a page");
   command->add_option("--out", options.out, "Folder to write to")
       ->type_name("DIR")
       ->capture_default_str();
-  command->add_option("--only", options.only, "Numbers of figures, e.g. 1,2,11")
+  const auto set_only = [&options](const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      const auto number = number_in(name);
+      if (number && *number == static_cast<int>(*number))
+        options.only.push_back(static_cast<int>(*number));
+      else
+        options.gases.push_back(name);
+    }
+  };
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--only", set_only, "Numbers of the paper's figures and names of others, e.g. 1,2,energy")
       ->type_name("LIST")
       ->delimiter(',');
   command->footer(examples(R"(  campaign figures
-  campaign figures --out paper --only 1,2,11)"));
+  campaign figures --out paper --only 1,2,11
+  campaign figures --only energy,a2,pressure
+
+The paper's figures, where the store has its gases, and figures of all the gases that it has; each as
+CSV, SVG and PNG, and all on one page. `campaign plot` draws other questions.)"));
+  return command;
+}
+
+CLI::App* add_plot(CLI::App& app, PlotOptions& options) {
+  Question& question = options.question;
+  auto* command = app.add_subcommand("plot", "Draw a question of your own: this against that");
+  command
+      ->add_option("Y", question.y,
+                   "A column, a profile, a quantity, or an SQL expression in columns; --list names "
+                   "them")
+      ->type_name("NAME");
+  command
+      ->add_option("--against", question.against,
+                   "tau, time, a parameter (e, n, N, roughness.beta), a profile's variable, or an "
+                   "expression")
+      ->type_name("NAME");
+  command
+      ->add_option("--by", question.by,
+                   "Parameters that colours and legend go by; by default all that vary")
+      ->type_name("LIST")
+      ->delimiter(',');
+  command
+      ->add_option("--where", question.where,
+                   "Which gases and samples, a condition in SQL: \"e < 0.9 AND N = 8000\"")
+      ->type_name("SQL");
+  const auto set_log = [&question](const std::vector<std::string>& axes) {
+    question.log_x = std::ranges::count(axes, "x") > 0;
+    question.log_y = std::ranges::count(axes, "y") > 0;
+  };
+  command
+      ->add_option_function<std::vector<std::string>>("--log", set_log,
+                                                      "Logarithmic axes: x, y or x,y")
+      ->check(CLI::IsMember({"x", "y"}))
+      ->type_name("AXES")
+      ->delimiter(',');
+  command->add_flag("--theory", question.theory, "With the theory that is known of it");
+  const auto set_difference = [&question](const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      throw CLI::ValidationError(
+          "--difference", "'" + text + "' is no reference; expected e.g. e=0.9 or roughness=none");
+    question.difference = {text.substr(0, equals), text.substr(equals + 1)};
+  };
+  command
+      ->add_option_function<std::string>("--difference", set_difference,
+                                         "Subtract, seed by seed, the gas with this value: e=0.9; "
+                                         "without an effect: roughness=none")
+      ->type_name("PARAMETER=VALUE");
+  const auto set_out = [&options](const std::string& text) {
+    options.out = text;
+    if (!is_plot_file(*options.out))
+      throw CLI::ValidationError("--out",
+                                 "'" + text + "': expected a name that ends in .svg, .png or .csv");
+  };
+  command
+      ->add_option_function<std::string>("--out", set_out,
+                                         "Picture or table, by its suffix .svg, .png or .csv; "
+                                         "without, the picture is printed as text")
+      ->type_name("FILE");
+  command->add_flag("--list", options.list, "What the store has to be drawn");
+  command->footer(examples(R"(  campaign plot --list
+  campaign plot a2 --against tau --by e --theory
+  campaign plot energy --log y --by n --where "d = 3 AND N = 8000" --out energy.svg
+  campaign plot a2 --against roughness.beta --by n          the mean over tau 5 to 15
+  campaign plot pressure@20 --against n --by e --theory --out pressure.csv
+  campaign plot tau_c --against N --by e --log x
+  campaign plot G_parallel --against r --where "tau = 50"
+  campaign plot "temperature_1/temperature_2" --against tau --by mixture.mass_ratio
+  campaign plot gamma_ratio --against tau --difference e=0.9 --out difference.png
+
+A curve is the mean over realizations of one gas, with the 68 % interval of the mean by Student's t;
+gases that differ are never averaged. In --where, N is the number of particles and roughness.beta
+the effect's parameter; tau thins samples too ("tau % 5 = 0").
+
+Exit code 1 if no finished run has what is asked for, 2 if a name or the SQL is not known.)"));
   return command;
 }
 
@@ -602,6 +694,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   ExplainCommand explained;
   QueryCommand query;
   FigureRequest figures;
+  PlotOptions plotted;
   ExportCommand exported;
   CostRequest cost;
   BackupCommand backup;
@@ -619,6 +712,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   const CLI::App* explain_command = add_explain(app, explained);
   const CLI::App* query_command = add_query(app, query);
   const CLI::App* figures_command = add_figures(app, figures);
+  const CLI::App* plot_command = add_plot(app, plotted);
   const CLI::App* export_command = add_export(app, exported);
   const CLI::App* cost_command = add_cost(app, cost);
   const CLI::App* verify_command = add_verify(app);
@@ -665,6 +759,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   if (explain_command->parsed()) line.command = explained;
   if (query_command->parsed()) line.command = query;
   if (figures_command->parsed()) line.command = figures;
+  if (plot_command->parsed()) line.command = plotted;
   if (export_command->parsed()) line.command = exported;
   if (cost_command->parsed()) line.command = cost;
   if (verify_command->parsed()) line.command = VerifyCommand{};

@@ -10,6 +10,7 @@
 #include "campaign/accuracy/cost.hpp"
 #include "campaign/commands/merge.hpp"
 #include "campaign/commands/plan.hpp"
+#include "campaign/commands/plot.hpp"
 #include "campaign/commands/query.hpp"
 #include "campaign/commands/recall.hpp"
 #include "campaign/commands/report.hpp"
@@ -18,7 +19,7 @@
 #include "campaign/commands/status.hpp"
 #include "campaign/commands/submit.hpp"
 #include "campaign/commands/theory.hpp"
-#include "campaign/paper/figures.hpp"
+#include "campaign/figures/figures.hpp"
 
 namespace haff::campaign {
 
@@ -44,11 +45,11 @@ struct WorkerCommand {  // what `run` starts; not for people
   std::optional<double> until;  // on the monotonic clock [s]
 };
 
-using Command =
-    std::variant<PlanOptions, RunOptions, StatusOptions, ExplainCommand, QueryCommand,
-                 FigureRequest, CostRequest, ExportCommand, VerifyCommand, RetryCommand,
-                 BackupCommand, UpgradeCommand, SplitOptions, MergeOptions, RecallOptions,
-                 SubmitOptions, TaskOptions, TheoryOptions, ReportOptions, WorkerCommand>;
+using Command = std::variant<PlanOptions, RunOptions, StatusOptions, ExplainCommand, QueryCommand,
+                             FigureRequest, PlotOptions, CostRequest, ExportCommand, VerifyCommand,
+                             RetryCommand, BackupCommand, UpgradeCommand, SplitOptions,
+                             MergeOptions, RecallOptions, SubmitOptions, TaskOptions, TheoryOptions,
+                             ReportOptions, WorkerCommand>;
 
 struct CommandLine {
   std::filesystem::path store;

@@ -18,6 +18,7 @@
 #include "campaign/commands/export.hpp"
 #include "campaign/commands/json_output.hpp"
 #include "campaign/commands/plan.hpp"
+#include "campaign/commands/plot.hpp"
 #include "campaign/commands/query.hpp"
 #include "campaign/commands/report.hpp"
 #include "campaign/commands/retry.hpp"
@@ -26,7 +27,8 @@
 #include "campaign/commands/theory.hpp"
 #include "campaign/commands/upgrade.hpp"
 #include "campaign/commands/verify.hpp"
-#include "campaign/paper/figures.hpp"
+#include "campaign/curves/theory_point.hpp"
+#include "campaign/figures/figures.hpp"
 #include "campaign/run/host_lock.hpp"
 #include "campaign/run/worker.hpp"
 #include "schema/error.hpp"
@@ -60,6 +62,7 @@ struct CommandDispatcher {
     PrintableStream report;
     return draw_figures(schema::Reader(line.store), request, report);
   }
+  int operator()(const PlotOptions& options) const { return plot(line.store, options); }
   int operator()(const ExportCommand& command) const {
     return export_state(line.store, command.job_id, std::cout);
   }
@@ -110,6 +113,7 @@ int exit_code_of(const std::exception& error) {
                             dynamic_cast<const schema::NameError*>(&error) != nullptr ||
                             dynamic_cast<const schema::QueryError*>(&error) != nullptr ||
                             dynamic_cast<const TheoryError*>(&error) != nullptr ||
+                            dynamic_cast<const QuestionError*>(&error) != nullptr ||
                             dynamic_cast<const UnknownFigure*>(&error) != nullptr;
   return is_bad_input ? exit_bad_input : exit_failed;
 }

@@ -12,12 +12,11 @@
 #include "campaign/base/output.hpp"
 #include "campaign/base/text_table.hpp"
 #include "campaign/commands/json_output.hpp"
-#include "campaign/commands/theory_curves.hpp"
+#include "campaign/curves/theory_curves.hpp"
+#include "campaign/curves/theory_point.hpp"
 
 namespace haff::campaign {
 namespace {
-
-using nlohmann::json;
 
 std::vector<double> range(double from, double to, double step) {
   // Half a step of rounding: both ends belong to it.
@@ -41,50 +40,6 @@ void print_list(RowFormat format) {
   say("{}", table.text());
 }
 
-double parameter(const json& effect, const char* effect_name, const char* key) {
-  if (!effect.contains(key) || !effect[key].is_number() || !(effect[key].get<double>() > 0))
-    throw TheoryError(fmt::format("--effects: {} needs a number {} above 0", effect_name, key));
-  return effect[key];
-}
-
-analysis::Restitution law_of(const json& restitution, double e) {
-  const std::string law = restitution.value("law", "constant");
-  const auto of = [&](const char* key) { return parameter(restitution, law.c_str(), key); };
-  if (law == "constant") return analysis::ConstantRestitution{e};
-  if (law == "threshold") return analysis::ThresholdRestitution{e, of("speed")};
-  if (law == "tc") return analysis::ContactDurationRestitution{e, of("t_c")};
-  if (law == "viscoelastic") return analysis::ViscoelasticRestitution{of("A")};
-  if (law == "plastic") return analysis::PlasticRestitution{of("speed")};
-  throw TheoryError(fmt::format("--effects: no law of restitution is called {}", law));
-}
-
-// The gas of the direct simulation, and whether anything but constant e was asked for.
-void add_effects(const std::string& text, TheoryPoint& at) {
-  const json effects = json::parse(text, nullptr, false);
-  if (!effects.is_object())
-    throw TheoryError(
-        "--effects: expected a JSON object as in a grid, e.g. "
-        "'{\"restitution\": {\"law\": \"viscoelastic\", \"A\": 0.05}}'");
-  for (const auto& [name, effect] : effects.items()) {
-    if (name == "restitution") {
-      at.gas.law = law_of(effect, at.e);
-      at.other_law = at.other_law || effect.value("law", "constant") != "constant";
-    } else if (name == "thermostat") {
-      at.gas.heating = parameter(effect, "thermostat", "rate");
-      at.other_law = true;
-    } else if (name == "shuffle") {
-      complain(
-          "campaign: a shuffle changes nothing where velocities are not correlated: the curve "
-          "is that of the gas without\n");
-    } else {
-      throw TheoryError(fmt::format(
-          "--effects: {} is beyond the direct simulation, which knows restitution, thermostat and "
-          "shuffle",
-          name));
-    }
-  }
-}
-
 // The values of the curve's variable.
 std::vector<double> variable_of(const TheoryCurve& curve, const TheoryOptions& options) {
   const auto usual = [](const std::vector<double>& given, std::vector<double> otherwise) {
@@ -106,6 +61,19 @@ void require(bool holds, const std::string& otherwise) {
   if (!holds) throw TheoryError(otherwise);
 }
 
+std::string unknown(const TheoryCurve& curve, const std::string& effects) {
+  if (curve.treats == Treats::rough)
+    return fmt::format(
+        "{} is of rough particles: --effects '{{\"roughness\": {{\"beta\": 0.5, \"q\": 0.4}}}}'",
+        curve.name);
+  if (curve.treats == Treats::mixture)
+    return fmt::format(
+        "{} is of mixtures: --effects '{{\"mixture\": {{\"fraction\": 0.5, "
+        "\"diameter_ratio\": 1, \"mass_ratio\": 0.1}}}}'",
+        curve.name);
+  return fmt::format("{} is not known with --effects {}", curve.name, effects);
+}
+
 TheoryPoint point_of(const TheoryCurve& curve, const TheoryOptions& options) {
   TheoryPoint at;
   at.d = options.d;
@@ -122,6 +90,11 @@ TheoryPoint point_of(const TheoryCurve& curve, const TheoryOptions& options) {
   at.size = {
       .particles = options.particles, .realizations = options.realizations, .seed = options.seed};
   add_effects(options.effects, at);
+  if (at.is_shuffled)
+    complain(
+        "campaign: a shuffle changes nothing where velocities are not correlated: the curve is "
+        "that "
+        "of the gas without\n");
   return at;
 }
 
@@ -200,8 +173,7 @@ int theory(const TheoryOptions& options) {
               : fmt::format("no theory curve is called {}; `campaign theory --list` names them",
                             options.curve));
   const TheoryPoint at = point_of(*curve, options);
-  require(!at.other_law || curve->variable == "tau",
-          fmt::format("{} is not known with other effects", curve->name));
+  require(knows(*curve, at), unknown(*curve, options.effects));
   try {
     print(curve->compute(at, variable_of(*curve, options)), options.format);
   } catch (const std::invalid_argument& error) {

@@ -31,11 +31,6 @@ struct TheoryOptions {
 // than a million values.
 std::optional<std::vector<double>> values_from_text(std::string_view text);
 
-// The request names no curve, or asks for what theory has nothing to say of.
-struct TheoryError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 // Prints the curve; returns an ExitCode. Throws TheoryError.
 int theory(const TheoryOptions& options);
 

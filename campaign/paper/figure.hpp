@@ -1,4 +1,4 @@
-// One of the paper's figures: what it shows, what it needs, how it is made of averages.
+// The paper's figures: each a plot made of averages.
 //
 // To add a figure: write figure_NN.cpp with its function, and its line in the table of
 // figures.cpp.
@@ -8,45 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "campaign/paper/base_case.hpp"
+#include "campaign/paper/captions.hpp"
+#include "campaign/paper/measured_curve.hpp"
 #include "campaign/plot/colours.hpp"
 #include "campaign/plot/plot.hpp"
 #include "campaign/results/averages.hpp"
 
 namespace haff::campaign {
-
-// The density of the paper's base case [sigma^-d].
-inline constexpr double base_density = 0.40;
-
-// e of the paper's figures over densities.
-inline constexpr double densities_restitution = 0.85;
-
-// e of the paper's velocity correlations, and tau between which they scale.
-inline constexpr double correlations_restitution = 0.80;
-inline constexpr double scaling_from = 20, scaling_until = 60;
-
-// Where the measured curves, which have n or e in common, come from, for captions: "n = 0.40;
-// e = 0.80, 0.90: N = 32 000, mean of 2 realizations. haff 0.1.0 (1a2b3c4d)." Realizations that
-// ended earlier, or are not done, are said.
-std::string provenance(const std::vector<MeanSeries>& series);
-
-// The programs that made them, for captions: " haff 0.1.0 (1a2b3c4d)."; nothing if unknown.
-std::string versions_text(const std::vector<MeanSeries>& series);
-
-// What captions say of error bars and bands, if any series has them, and of what they do not say:
-// curves are not independent of each other, nor their points.
-std::string error_note(const std::vector<MeanSeries>& series);
-
-// Likewise of Laguerre coefficients, whose errors are never less than those of Gaussian velocities.
-std::string coefficient_error_note(const std::vector<MeanSeries>& series);
-
-// tau up to which a figure of the homogeneous stage shows a series: somewhat beyond tau_c.
-double homogeneous_stage(const MeanSeries& series);
-
-// Only the points at x <= end.
-Curve until(double end, Curve curve);
-
-// A measured curve's name, gas, realizations and colour, without points.
-Curve measured_curve(const MeanSeries& series);
 
 // The curves of figure 10, G_parallel or G_perpendicular: G tau^(d/2) m / T_0 against r / (sigma
 // sqrt(tau)) at each tau measured between scaling_from and scaling_until.

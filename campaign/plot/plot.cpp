@@ -4,10 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "campaign/plot/colours.hpp"
+
 namespace haff::campaign {
 
 double Curve::error_at(std::size_t i) const {
   return i < error.size() ? error[i] : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string ToneScale::tone(double value) const {
+  const auto at = [&](double v) { return logarithmic ? std::log(v) : v; };
+  const double share = high > low ? (at(value) - at(low)) / (at(high) - at(low)) : 0;
+  constexpr std::size_t steps = 1000;
+  return shade(static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * (steps - 1)), steps);
 }
 
 bool has_arrows(const Panel& panel) {

@@ -7,11 +7,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace haff::campaign {
 
-enum class Look { symbols, line, dashed, dotted, arrows };
+enum class Look { symbols, line, dashed, dotted, dash_dotted, arrows };
 
 // Where a curve comes from, in the table's column `kind`.
 enum class Source { measured, theory, published };
@@ -24,18 +25,20 @@ struct Curve {
   // What it is of, for the table; empty where it is of none in particular.
   std::optional<double> e = {}, n = {};
   std::optional<std::int64_t> particles = {};
+  std::vector<std::pair<std::string, std::string>> parameters = {};  // further ones, by name
 
   std::vector<double> x = {}, y = {};
-  std::vector<double> error = {};                 // standard error of y, NaN or empty: none
+  std::vector<double> error = {};                 // what is drawn of y's, NaN or empty: none
   std::vector<std::int64_t> realizations = {};    // averaged at each point; empty for theory
   std::vector<std::array<double, 2>> arrow = {};  // at each point, for Look::arrows
 
   // In the picture. A curve without points is an entry of the legend only.
   Look look = Look::line;
   std::string colour = "#000000";
-  int symbol = 7;      // gnuplot's point type
-  double size = 0.55;  // of symbols, in gnuplot's unit
-  double width = 1.8;  // of lines [pt]
+  bool joined = false;  // symbols with a thin line from one to the next
+  int symbol = 7;       // gnuplot's point type
+  double size = 0.55;   // of symbols, in gnuplot's unit
+  double width = 1.8;   // of lines [pt]
 
   double error_at(std::size_t i) const;  // NaN: none
 };
@@ -50,17 +53,32 @@ struct Axis {
   std::string tics = {};  // further gnuplot words for tics, e.g. "10"
 };
 
+// Tones in place of a legend, for many curves that have an order: those of shade(), from dark at
+// `low` to light at `high`.
+struct ToneScale {
+  std::string label = {};  // enhanced text
+  double low = 0, high = 1;
+  bool logarithmic = false;
+
+  std::string tone(double value) const;  // a colour
+};
+
 struct Panel {
   std::string name = "main";  // in the table's column `panel`
   Axis x, y;
   std::vector<Curve> curves = {};
-  std::string legend = "top right";        // its place, gnuplot's words; "none" for none
+  std::string legend = "top right";  // its place, gnuplot's words; "none" for none; "beside"
+                                     // for right of the axes
+  // The part of the picture's width, from the left, that the axes have with what belongs to them:
+  // less than 1 where a scale or a legend stands beside.
+  double axes_share = 1;
   std::vector<std::string> commands = {};  // of gnuplot, for what is no curve: labels, arrows
   bool small = false;                      // smaller type, for an inset
   // Of arrows: length on the axes of an arrow of length 1, the length whose tone is the brightest,
   // and what the scale of tones is labelled; empty for no scale.
   double arrow_scale = 1, tone_high = 1;
   std::string tone_label = {};
+  std::optional<ToneScale> scale = {};  // of the curves' colours
   // Left, right, bottom, top of the axes as fractions of the picture, for an inset or a row.
   std::optional<std::array<double, 4>> frame = {};
 };

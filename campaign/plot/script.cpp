@@ -87,6 +87,19 @@ std::vector<std::size_t> shown_points(const Curve& curve, const Panel& panel) {
   return thinned;
 }
 
+// With room for what stands right of the axes.
+std::array<double, 4> frame_beside(const Panel& panel, std::array<double, 4> frame) {
+  frame[0] *= panel.axes_share;
+  frame[1] *= panel.axes_share;
+  return frame;
+}
+
+std::string key_place(const Panel& panel, const std::array<double, 4>& frame) {
+  if (panel.legend != "beside") return panel.legend;
+  const double scale = panel.scale ? 0.1 : 0;  // which stands between
+  return fmt::format("at screen {}, screen {} left top", frame[1] + 0.01 + scale, frame[3]);
+}
+
 // Rows x, y, dx, dy, length: an arrow with its middle at the point.
 std::string arrow_block(const Curve& curve, const Panel& panel, const std::string& name,
                         const std::vector<std::size_t>& points) {
@@ -125,6 +138,8 @@ std::string dashes(Look look) {
       return "dt (9,5)";
     case Look::dotted:
       return "dt (2,4)";
+    case Look::dash_dotted:
+      return "dt (9,4,2,4)";
     default:
       return "dt solid";
   }
@@ -135,7 +150,8 @@ std::string plot_element(const Curve& curve, const std::string& block) {
   const std::string ink = fmt::format("lc rgb '{}'", curve.colour);
   const std::string style =
       curve.look == Look::symbols
-          ? fmt::format("points pt {} ps {} lw 1.2 {}", curve.symbol, curve.size, ink)
+          ? fmt::format("{} pt {} ps {} lw {} {}", curve.joined ? "linespoints" : "points",
+                        curve.symbol, curve.size, curve.joined ? 0.8 : 1.2, ink)
           : fmt::format("lines lw {} {} {}", curve.width, dashes(curve.look), ink);
   if (block.empty()) return fmt::format("keyentry with {} {}", style, title);
   if (curve.look == Look::arrows) {
@@ -162,20 +178,38 @@ std::ptrdiff_t entries(const Panel& panel) {
   return std::ranges::count_if(panel.curves, [](const Curve& c) { return !c.legend.empty(); });
 }
 
-// Tones from viridis, dark for the fast; the scale stands right of the axes.
-std::string tone_commands(const Panel& panel, const std::array<double, 4>& frame) {
+// "0 '#440154', 1 '#46327E', ..." from one end of viridis to the other.
+std::string palette(bool dark_first) {
   constexpr std::size_t steps = 7;
   std::string stops;
   for (std::size_t i = 0; i < steps; ++i)
-    stops += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, shade(steps - 1 - i, steps));
-  return fmt::format("set palette defined ({})\nset cbrange [0:{:.8g}]\nset cbtics {:g}\n{}", stops,
-                     panel.tone_high, round_step(panel.tone_high / 5),
-                     panel.tone_label.empty()
-                         ? std::string("unset colorbox\n")
-                         : fmt::format("set colorbox user origin screen {}, screen {} size screen "
-                                       "0.012, screen {}\nset cblabel {}\n",
-                                       frame[1] + 0.012, frame[2], frame[3] - frame[2],
-                                       in_quotes(panel.tone_label)));
+    stops += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i,
+                         shade(dark_first ? i : steps - 1 - i, steps));
+  return fmt::format("set palette defined ({})\n", stops);
+}
+
+// Right of the axes.
+std::string colour_box(const std::array<double, 4>& frame, const std::string& label) {
+  return fmt::format(
+      "set colorbox user origin screen {}, screen {} size screen 0.012, screen {}\n"
+      "set cblabel {}\n",
+      frame[1] + 0.012, frame[2], frame[3] - frame[2], in_quotes(label));
+}
+
+// Tones of arrows, dark for the fast.
+std::string tone_commands(const Panel& panel, const std::array<double, 4>& frame) {
+  return palette(false) +
+         fmt::format("set cbrange [0:{:.8g}]\nset cbtics {:g}\n", panel.tone_high,
+                     round_step(panel.tone_high / 5)) +
+         (panel.tone_label.empty() ? "unset colorbox\n" : colour_box(frame, panel.tone_label));
+}
+
+// Tones of curves in place of a legend.
+std::string scale_commands(const ToneScale& scale, const std::array<double, 4>& frame) {
+  return palette(true) +
+         fmt::format("{} logscale cb\nset cbrange [{:.8g}:{:.8g}]\nset cbtics auto\n",
+                     scale.logarithmic ? "set" : "unset", scale.low, scale.high) +
+         colour_box(frame, scale.label);
 }
 
 std::string axis_commands(const Axis& axis, char letter) {
@@ -248,19 +282,20 @@ std::string gnuplot_script(const Plot& plot, PictureFormat format) {
   std::string blocks, panels;
   int count = 0;
   for (const Panel& panel : plot.panels) {
-    const auto frame = panel.frame.value_or(first_frame);
+    const auto frame = panel.frame.value_or(frame_beside(panel, first_frame));
     panels += fmt::format(
         "set lmargin at screen {}\nset rmargin at screen {}\n"
         "set bmargin at screen {}\nset tmargin at screen {}\n",
         frame[0], frame[1], frame[2], frame[3]);
     panels += panel.legend == "none"
                   ? "unset key\n"
-                  : fmt::format("set key {} Left reverse samplen 2.2 {}\n", panel.legend,
+                  : fmt::format("set key {} Left reverse samplen 2.2 {}\n", key_place(panel, frame),
                                 entries(panel) > many_entries ? "font ',9' spacing 0.95"
                                                               : "font ',12' spacing 1.15");
     panels += fmt::format("set tics font ',{}'\n", panel.small ? 10 : 12);
     panels += axis_commands(panel.x, 'x') + axis_commands(panel.y, 'y');
     if (has_arrows(panel)) panels += tone_commands(panel, frame);
+    if (panel.scale) panels += scale_commands(*panel.scale, frame);
     for (const std::string& command : panel.commands) panels += command + "\n";
     std::string elements;
     for (const Curve& curve : panel.curves) {
@@ -273,7 +308,9 @@ std::string gnuplot_script(const Plot& plot, PictureFormat format) {
       }
       elements += (elements.empty() ? "" : ", ") + plot_element(curve, block);
     }
-    panels += "plot " + elements + "\nunset label\nunset arrow\nunset object\n";
+    // gnuplot draws the scale for a plot that uses its palette.
+    if (panel.scale) elements += ", 1/0 with points palette notitle";
+    panels += "plot " + elements + "\nunset colorbox\nunset label\nunset arrow\nunset object\n";
   }
 
   // Arial is what viewers of SVG have or replace by its like (Liberation Sans on Debian).

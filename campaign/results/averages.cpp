@@ -53,16 +53,6 @@ constexpr std::array<Measured, 5> measured_columns{{{&MeanSeries::temperature},
                                                     {&MeanSeries::a3, 3},
                                                     {&MeanSeries::a4, 4}}};
 
-// Of the last sample of the series.
-double error_of(const Measured& column, double standard_error, const MeanSeries& series) {
-  const std::int64_t realizations = series.realizations.back();
-  const double scatter = bar(standard_error, realizations);
-  if (column.laguerre == 0 || !std::isfinite((series.*column.means).value.back())) return scatter;
-  const double known = analysis::laguerre_noise(
-      column.laguerre, static_cast<double>(series.particles * realizations));
-  return scatter > known ? scatter : known;  // one realization has no scatter
-}
-
 schema::Row key_of(const schema::Row& row) {
   return {row.begin(), row.begin() + keys};
 }
@@ -89,7 +79,11 @@ std::map<schema::Row, MeanSeries> read_means(const schema::Reader& store, const 
     for (const Measured& each : measured_columns) {
       Means& means = series.*each.means;
       means.value.push_back(real(r[column++]));
-      means.error.push_back(error_of(each, real(r[column++]), series));
+      const double standard_error = real(r[column++]);
+      means.error.push_back(std::isfinite(means.value.back())
+                                ? error_of_mean(each.laguerre, standard_error, series.particles,
+                                                series.realizations.back())
+                                : none);
     }
     if (const double every = real(r[column]); every > 0) series.shuffled_every = every;
   }
@@ -231,6 +225,15 @@ double bar(double standard_error, std::int64_t realizations) {
     place->second =
         analysis::student_t(static_cast<std::size_t>(realizations - 1), analysis::bar_confidence);
   return place->second * standard_error;
+}
+
+double error_of_mean(int laguerre, double standard_error, std::int64_t particles,
+                     std::int64_t realizations, int d) {
+  const double scatter = bar(standard_error, realizations);
+  if (laguerre == 0) return scatter;
+  const double known =
+      analysis::laguerre_noise(laguerre, static_cast<double>(particles * realizations), d);
+  return scatter > known ? scatter : known;  // one realization has no scatter
 }
 
 std::int64_t MeanSeries::most_realizations() const {

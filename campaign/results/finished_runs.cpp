@@ -25,16 +25,6 @@ std::optional<MeshTrial> mesh_trial(const schema::Reader& store, const schema::J
   return MeshTrial{measured(1), measured(wide_cell)};
 }
 
-FinishedRun read_run(const schema::Reader& store, const schema::JobRow& row, double equilibration) {
-  FinishedRun run{.seed = row.job.seed,
-                  .tau_max = row.tau_max,
-                  .cpu_seconds = row.progress.cpu_seconds,
-                  .equilibration_cpu_seconds = equilibration,
-                  .samples = store.samples(row.job_id)};
-  if (const auto results = store.results(row.job_id)) run.tau_c = results->tau_c;
-  return run;
-}
-
 void read_correlations(const schema::Reader& store, const schema::JobRow& row, FinishedRun& run) {
   if (!row.job.profiles_every) return;
   run.correlations = store.profiles(row.job_id, "G_parallel");
@@ -56,14 +46,24 @@ std::vector<FinishedSeries> read_those(const schema::Reader& store, Wanted&& wan
     if (!wanted(series)) continue;
     if (all.empty() || schema::series_identity(all.back().job) != series)
       all.push_back({.job = row.job, .runs = {}});
-    all.back().runs.push_back(
-        read_run(store, row, row.equilibration_id ? spent[*row.equilibration_id] : 0));
+    all.back().runs.push_back(finished_run(store, row));
+    if (row.equilibration_id)
+      all.back().runs.back().equilibration_cpu_seconds = spent[*row.equilibration_id];
     complete(row, all.back().runs.back());
   }
   return all;
 }
 
 }  // namespace
+
+FinishedRun finished_run(const schema::Reader& store, const schema::JobRow& row) {
+  FinishedRun run{.seed = row.job.seed,
+                  .tau_max = row.tau_max,
+                  .cpu_seconds = row.progress.cpu_seconds,
+                  .samples = store.samples(row.job_id)};
+  if (const auto results = store.results(row.job_id)) run.tau_c = results->tau_c;
+  return run;
+}
 
 std::vector<FinishedSeries> read_finished_runs(const schema::Reader& store) {
   return read_those(

@@ -33,6 +33,9 @@ struct FinishedSeries {
   std::vector<FinishedRun> runs;  // by seed, at least one
 };
 
+// A job's run, without its correlations and what its equilibration took.
+FinishedRun finished_run(const schema::Reader& store, const schema::JobRow& row);
+
 // All finished cooling jobs, series by series in the order of tables.
 std::vector<FinishedSeries> read_finished_runs(const schema::Reader& store);
 

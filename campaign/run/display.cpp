@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "campaign/base/duration.hpp"
 #include "campaign/base/output.hpp"
 #include "campaign/base/printable.hpp"
+#include "campaign/base/terminal.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -19,20 +19,6 @@ using namespace std::chrono_literals;
 
 constexpr auto redraw_every = 200ms;
 constexpr auto line_every = 10s;
-
-struct TerminalSize {
-  std::size_t columns = 80;
-  std::size_t lines = 24;
-};
-
-TerminalSize terminal_size() {
-  winsize size{};
-  TerminalSize found;
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0) return found;
-  if (size.ws_col > 0) found.columns = size.ws_col;
-  if (size.ws_row > 0) found.lines = size.ws_row;
-  return found;
-}
 
 std::string rate_text(double per_second) {
   return per_second >= 1e5 ? fmt::format("{:5.2f} M collisions/s", per_second / 1e6)
@@ -138,8 +124,9 @@ void Display::draw_bars(const Totals& totals) {
   erase_bars();
   // One column stays free, since a full line would wrap on some terminals, and one line, on which
   // the cursor stands.
-  const TerminalSize size = terminal_size();
-  const auto lines = bars(workers_, totals, size.columns - 1, size.lines - 1);
+  const TerminalSize size = terminal_size(STDERR_FILENO);
+  const auto lines = bars(workers_, totals, static_cast<std::size_t>(size.columns - 1),
+                          static_cast<std::size_t>(size.lines - 1));
   std::string picture;
   for (const std::string& line : lines) picture += line + '\n';
   write_to_stderr(picture);

@@ -89,6 +89,9 @@ TEST_CASE("hostile store: text of every column, by every way out") {
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"figures", "--only", "1,8"},
           {"cost"},
+          {"plot", "--list"},
+          {"plot", "a2", "--theory"},
+          {"plot", "temperature", "--by", "seed", "--out", "plot.svg"},
           {"status"},
           {"report"},
           {"verify"},

@@ -53,8 +53,13 @@ TEST_CASE("theory: every curve of the list prints") {
   for (std::size_t k = 2; k < list.size(); ++k) {
     const std::string name = list[k].substr(0, list[k].find(' '));
     CAPTURE(name);
-    const auto done =
-        campaign(folder, {"theory", name, "--d", "2", "--e", "0.9", "--format", "csv"});
+    const std::string effects =
+        name.starts_with("rotational") ? R"({"roughness": {"beta": 0.5, "q": 0.5}})"
+        : name == "species_ratio"
+            ? R"({"mixture": {"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": 0.5}})"
+            : "{}";
+    const auto done = campaign(folder, {"theory", name, "--d", "2", "--e", "0.9", "--format", "csv",
+                                        "--effects", effects});
     CHECK(done.exit_code == 0);
     const auto rows = lines(done.out);
     REQUIRE(rows.size() >= 2);
@@ -105,6 +110,7 @@ TEST_CASE("theory: what is not understood is named, with exit code 2") {
   CHECK(
       complaint({"a2", "--effects", R"({"roughness": {"beta": 0, "q": 0.4}})"}).find("roughness") !=
       std::string::npos);
+  CHECK(complaint({"species_ratio"}).find("is of mixtures") != std::string::npos);
   CHECK(complaint({"a2", "--effects", R"({"restitution": {"law": "glue"}})"}).find("glue") !=
         std::string::npos);
 }

@@ -37,13 +37,13 @@ TEST_CASE("differences: what two gases have in common is not in the error of the
       paired_differences({gas(0.8, -0.03, 0.02, 0.002), gas(0.9, -0.01, 0.02, 0.002)}, {a2});
   REQUIRE(all.size() == 1);
   const Difference& each = all.front();
-  CHECK(each.pairs == 64);
+  CHECK(each.difference.pairs == 64);
   CHECK(each.job.e == 0.9);
   CHECK(each.reference.e == 0.8);
   // Errors of 64 normal values are known to 9 %: four of their errors.
-  CHECK(each.error == Approx(0.002 * std::sqrt(2) / 8).epsilon(0.36));
-  CHECK(each.independent == Approx(0.02 * std::sqrt(2) / 8).epsilon(0.36));
-  CHECK(std::abs(each.value - 0.02) < 4 * each.error);
+  CHECK(each.difference.error == Approx(0.002 * std::sqrt(2) / 8).epsilon(0.36));
+  CHECK(each.difference.independent == Approx(0.02 * std::sqrt(2) / 8).epsilon(0.36));
+  CHECK(std::abs(each.difference.value - 0.02) < 4 * each.difference.error);
 }
 
 TEST_CASE("differences: only gases that started from the same states are compared") {

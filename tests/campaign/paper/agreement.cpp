@@ -15,7 +15,6 @@
 #include "analysis/theory/cooling.hpp"
 #include "analysis/theory/energy_equation.hpp"
 #include "analysis/theory/enskog_boltzmann.hpp"
-#include "campaign/paper/page.hpp"
 #include "support/synthetic_store.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -174,19 +173,4 @@ TEST_CASE("agreement: a table has a row a claim, and nothing where there is noth
   CHECK(contents(file) ==
         "claim,quantity,e,n,value,half_interval_95,reference,source,criterion,holds,note\n"
         "order,\"a, b\",,,0.10000000000000001,,,\"\",\"\",no,\"\"\n");
-}
-
-TEST_CASE("page: what is drawn is shown, what is not is named, and text is escaped") {
-  const TemporaryFolder folder;
-  const auto file = folder.path() / "index.html";
-  write_page({{.id = 1, .title = "first", .picture = "figure-01.svg", .caption = "a < b"},
-              {.id = 3, .title = "third", .caption = "not drawn", .published = "P"}},
-             {{.claim = "x", .quantity = "|a| > |b|", .holds = true}}, file);
-  const std::string page = contents(file);
-  CHECK(page.find("src=\"figure-01.svg\"") != std::string::npos);
-  CHECK(page.find("a &lt; b") != std::string::npos);
-  CHECK(page.find("|a| &gt; |b|") != std::string::npos);
-  CHECK(page.find("not drawn") != std::string::npos);
-  CHECK(page.find("1 of 1 claims hold") != std::string::npos);
-  CHECK(page.find("http") == std::string::npos);  // nothing from elsewhere
 }

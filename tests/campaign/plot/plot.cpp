@@ -44,7 +44,7 @@ std::string table_of(const Plot& plot) {
 
 TEST_CASE("plot: a table has a head, a row a point, 17 digits and nothing where nothing is known") {
   CHECK(table_of(two_curves()) ==
-        "panel,curve,kind,e,n,particles,realizations,tau,temperature,temperature_se\n"
+        "panel,curve,kind,e,n,particles,realizations,tau,temperature,temperature_error\n"
         "main,e = 0.80,measured,0.80000000000000004,0.40000000000000002,1000,1,0,"
         "0.33333333333333331,\n"
         "main,e = 0.80,measured,0.80000000000000004,0.40000000000000002,1000,2,1,0.25,0.5\n"
@@ -118,4 +118,22 @@ TEST_CASE("plot: no two curves share a colour") {
     for (std::size_t place = 0; place < of; ++place) colours.insert(colour(place, of));
     CHECK(colours.size() == of);
   }
+}
+
+TEST_CASE("plot: further parameters of curves are columns of the table") {
+  Plot plot = two_curves();
+  plot.panels[0].curves[0].parameters = {{"d", "3"}, {"restitution.law", "a, b"}};
+  const std::string table = table_of(plot);
+  CHECK(table.find(",particles,d,restitution.law,realizations,") != std::string::npos);
+  CHECK(table.find(",1000,3,\"a, b\",1,0,") != std::string::npos);
+  CHECK(table.find("main,Haff,theory,,,,,,,0,1,") != std::string::npos);
+}
+
+TEST_CASE("plot: a scale of tones reaches from end to end of its values") {
+  const ToneScale linear{.low = 1, .high = 3};
+  CHECK(linear.tone(1) == shade(0, 1000));
+  CHECK(linear.tone(3) == shade(999, 1000));
+  CHECK(linear.tone(2) == shade(499, 1000));
+  const ToneScale logarithmic{.low = 1, .high = 100, .logarithmic = true};
+  CHECK(logarithmic.tone(10) == linear.tone(2));
 }

@@ -1,4 +1,4 @@
-#include "campaign/commands/theory_curves.hpp"
+#include "campaign/curves/theory_curves.hpp"
 
 #include <algorithm>
 #include <array>
@@ -50,6 +50,7 @@ std::vector<analysis::TabulatedValue> direct(
       return result;
     }
   }
+  if (!at.may_compute) return result;
   for (const auto& point :
        analysis::direct_means(analysis::direct_realizations(at.gas, tau, at.size))) {
     const analysis::Estimate value = of(point);
@@ -124,6 +125,7 @@ TheoryTable gamma_ratio(const TheoryPoint& at, Values tau) {
                 {"gamma_ratio_energy_equation", equation(at, tau, Velocities::gaussian, of)},
                 {"gamma_ratio_energy_equation_non_gaussian",
                  equation(at, tau, Velocities::enskog_boltzmann, of)}};
+    if (at.is_shuffled) theories.resize(1);
   }
   return against_tau(tau, theories, "gamma_ratio",
                      direct(at, tau, "gamma_ratio",
@@ -142,7 +144,50 @@ TheoryTable rate_ratio(const TheoryPoint& at, Values tau) {
                             [](const analysis::DirectPoint& point) { return point.rate_ratio; }));
 }
 
+// Temperatures of rough particles that start without rotation, with Gaussian velocities and spins.
+std::vector<double> rough(const TheoryPoint& at, Values tau,
+                          double (*of)(const analysis::RoughTemperatures&)) {
+  const analysis::RoughTemperatures start{.translation = analysis::initial_temperature(at.d)};
+  return map(tau, [&](double each) {
+    return of(analysis::rough_temperatures(each, at.e, *at.roughness, start));
+  });
+}
+
+TheoryTable rotational_temperature(const TheoryPoint& at, Values tau) {
+  return against_tau(tau,
+                     {{"rotational_temperature_gaussian",
+                       rough(at, tau, [](const auto& both) { return both.rotation; })}},
+                     "", {});
+}
+
+TheoryTable rotational_ratio(const TheoryPoint& at, Values tau) {
+  return against_tau(
+      tau,
+      {{"rotational_ratio_gaussian",
+        rough(at, tau, [](const auto& both) { return both.rotation / both.translation; })}},
+      "", {});
+}
+
+TheoryTable species_ratio(const TheoryPoint& at, Values tau) {
+  const double ratio = at.gas.heating > 0 ? analysis::heated_temperature_ratio(*at.mixture)
+                                          : analysis::temperature_ratio(*at.mixture);
+  return against_tau(tau, {{"species_ratio_gaussian", std::vector<double>(tau.size(), ratio)}}, "",
+                     {});
+}
+
+// p = n T (1 + 2^(d-2) (1 + e) phi chi): V. Garzo and J. W. Dufty, Phys. Rev. E 59, 5895 (1999).
+TheoryTable compressibility(const TheoryPoint& at, Values n) {
+  return table({"n", "Z_enskog"}, n, [&](double each) -> Row {
+    return {1 + (1 + at.e) / 2 * (analysis::equation_of_state(each, at.d).z - 1)};
+  });
+}
+
 TheoryTable temperature(const TheoryPoint& at, Values tau) {
+  if (at.roughness)
+    return against_tau(tau,
+                       {{"temperature_gaussian",
+                         rough(at, tau, [](const auto& both) { return both.translation; })}},
+                       "", {});
   if (at.other_law)
     return against_tau(
         tau, {}, "temperature",
@@ -154,13 +199,15 @@ TheoryTable temperature(const TheoryPoint& at, Values tau) {
     for (double& each : values) each *= start;
     return values;
   };
-  return against_tau(
-      tau,
-      {{"temperature_haff",
-        map(tau, [&](double each) { return analysis::haff_temperature(each, at.e, at.d); })},
-       {"temperature_energy_equation", scaled(Velocities::gaussian)},
-       {"temperature_energy_equation_non_gaussian", scaled(Velocities::enskog_boltzmann)}},
-      "", {});
+  std::vector<Column> theories{{"temperature_haff", map(tau, [&](double each) {
+                                  return analysis::haff_temperature(each, at.e, at.d);
+                                })}};
+  if (!at.is_shuffled) {
+    theories.push_back({"temperature_energy_equation", scaled(Velocities::gaussian)});
+    theories.push_back(
+        {"temperature_energy_equation_non_gaussian", scaled(Velocities::enskog_boltzmann)});
+  }
+  return against_tau(tau, theories, "", {});
 }
 
 TheoryTable tau_c(const TheoryPoint& at, Values e) {
@@ -255,32 +302,48 @@ TheoryTable heated_a2(const TheoryPoint& at, Values e) {
 
 constexpr std::array curves{
     TheoryCurve{"a2", "tau", "Laguerre coefficient a_2 without correlations (Enskog-Boltzmann)",
-                laguerre<2>},
-    TheoryCurve{"a3", "tau", "a_3, likewise: direct simulation (dsmc) alone", laguerre<3>},
-    TheoryCurve{"a4", "tau", "a_4, likewise", laguerre<4>},
-    TheoryCurve{"a5", "tau", "a_5, likewise", laguerre<5>},
-    TheoryCurve{"a6", "tau", "a_6, likewise", laguerre<6>},
+                Treats::any_law, laguerre<2>},
+    TheoryCurve{"a3", "tau", "a_3, likewise: direct simulation (dsmc) alone", Treats::any_law,
+                laguerre<3>},
+    TheoryCurve{"a4", "tau", "a_4, likewise", Treats::any_law, laguerre<4>},
+    TheoryCurve{"a5", "tau", "a_5, likewise", Treats::any_law, laguerre<5>},
+    TheoryCurve{"a6", "tau", "a_6, likewise", Treats::any_law, laguerre<6>},
     TheoryCurve{"gamma_ratio", "tau",
                 "decay rate gamma/gamma_0: without correlations, and by the energy equation",
-                gamma_ratio},
+                Treats::any_law, gamma_ratio},
     TheoryCurve{"rate_ratio", "tau", "collision rate omega/omega_0 at the gas's own temperature",
-                rate_ratio},
-    TheoryCurve{"temperature", "tau", "T [E(0)]: Haff's law and the energy equation", temperature},
-    TheoryCurve{"correlation_trace", "tau", "Tr G+(0) [E(0)/m], cut off at k_M", correlation_trace},
+                Treats::any_law, rate_ratio},
+    TheoryCurve{"temperature", "tau", "T [E(0)]: Haff's law and the energy equation",
+                Treats::any_law_or_rough, temperature},
+    TheoryCurve{"correlation_trace", "tau", "Tr G+(0) [E(0)/m], cut off at k_M", Treats::correlated,
+                correlation_trace},
     TheoryCurve{"G_parallel", "r", "longitudinal velocity correlation at --tau [E(0)/m]",
-                correlation<true>},
+                Treats::correlated, correlation<true>},
     TheoryCurve{"G_perpendicular", "r", "transverse velocity correlation at --tau [E(0)/m]",
-                correlation<false>},
-    TheoryCurve{"growth_rates", "k", "linear modes of the cooling gas [1/tau]", growth_rates},
-    TheoryCurve{"tau_c", "e", "end of the homogeneous stage, by the energy equation", tau_c},
-    TheoryCurve{"plateau", "e", "a_2, a_3, a_4 and gamma/gamma_0 that no longer change", plateau},
+                Treats::correlated, correlation<false>},
+    TheoryCurve{"growth_rates", "k", "linear modes of the cooling gas [1/tau]", Treats::correlated,
+                growth_rates},
+    TheoryCurve{"tau_c", "e", "end of the homogeneous stage, by the energy equation",
+                Treats::correlated, tau_c},
+    TheoryCurve{"plateau", "e", "a_2, a_3, a_4 and gamma/gamma_0 that no longer change",
+                Treats::smooth, plateau},
     TheoryCurve{"heated_a2", "e", "a_2 of the gas heated by white noise, first order in a_2",
-                heated_a2},
+                Treats::smooth, heated_a2},
     TheoryCurve{"lengths", "e", "correlation lengths [sigma], smallest box with vortices and its N",
-                lengths},
+                Treats::correlated, lengths},
     TheoryCurve{"elastic_fluid", "n",
                 "chi of Carnahan and Starling (disks: Henderson), Z, and Enskog's rates at T = 1",
-                elastic_fluid},
+                Treats::smooth, elastic_fluid},
+    TheoryCurve{"rotational_temperature", "tau",
+                "temperature of rotation of rough particles [E(0)]", Treats::rough,
+                rotational_temperature},
+    TheoryCurve{"rotational_ratio", "tau", "temperature of rotation over that of translation",
+                Treats::rough, rotational_ratio},
+    TheoryCurve{"species_ratio", "tau",
+                "T_1/T_2 of a mixture that cools homogeneously, or is heated and at rest",
+                Treats::mixture, species_ratio},
+    TheoryCurve{"Z", "n", "pressure / (n T) of the gas that collides with e", Treats::smooth,
+                compressibility},
 };
 
 }  // namespace

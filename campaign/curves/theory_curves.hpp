@@ -2,13 +2,15 @@
 // have, and how they are computed. All of it is in analysis/; this is the list.
 #pragma once
 
-#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/direct/direct_simulation.hpp"
+#include "analysis/theory/mixture.hpp"
+#include "analysis/theory/rough_spheres.hpp"
 
 namespace haff::campaign {
 
@@ -17,9 +19,15 @@ struct TheoryPoint {
   int d = 3;
   double n = 0.4;
   double e = 0.85;
-  double b = 0.30;         // of the cutoff k_M of Tr G^+
-  double tau = 50;         // of a curve in r
-  bool other_law = false;  // an effect was asked for: the direct simulation alone knows it
+  double b = 0.30;           // of the cutoff k_M of Tr G^+
+  double tau = 50;           // of a curve in r
+  bool other_law = false;    // another law of restitution, or heating: the direct simulation alone
+                             // knows it
+  bool is_shuffled = false;  // no correlations of velocities: theory without them is all there is
+  std::optional<analysis::Roughness> roughness = {};
+  std::optional<analysis::BinaryMixture> mixture = {};
+  // Whether a direct simulation may be computed where the table has none: it takes some seconds.
+  bool may_compute = true;
   analysis::HomogeneousGas gas;
   analysis::SimulationSize size;
 };
@@ -29,10 +37,16 @@ struct TheoryTable {
   std::vector<std::vector<double>> rows;
 };
 
+// The gases that a curve is of: smooth spheres of constant e whose velocities are correlated, the
+// same with or without a shuffle, also those of another law of restitution or with a thermostat,
+// also rough ones, those alone, or mixtures.
+enum class Treats { correlated, smooth, any_law, any_law_or_rough, rough, mixture };
+
 struct TheoryCurve {
   std::string_view name;
   std::string_view variable;  // tau, r, k, e or n
   std::string_view meaning;
+  Treats treats;
   TheoryTable (*compute)(const TheoryPoint& at, std::span<const double> values);
 };
 

@@ -1,0 +1,56 @@
+#include "campaign/figures/general.hpp"
+
+#include <vector>
+
+namespace haff::campaign {
+namespace {
+
+// With so many gases theory is still told apart.
+constexpr std::size_t most_with_theory = 6;
+
+// Of each run its last profile.
+constexpr const char* at_the_end = "tau + profiles_every > tau_max * (1 + 1e-9)";
+
+Question along_tau(const char* y) {
+  return {.y = y, .theory = true, .theory_up_to = most_with_theory};
+}
+
+Question logarithmic(Question question) {
+  question.log_y = true;
+  return question;
+}
+
+Question profile(const char* y) {
+  return {.y = y, .where = at_the_end, .theory = true, .theory_up_to = most_with_theory};
+}
+
+const std::vector<GeneralFigure> figures = {
+    {"energy", "energy of translation", logarithmic(along_tau("energy"))},
+    {"gamma", "decay rate", along_tau("gamma_ratio")},
+    {"a2", "Laguerre coefficient a₂", along_tau("a2")},
+    {"a3", "Laguerre coefficient a₃", along_tau("a3")},
+    {"a4", "Laguerre coefficient a₄", along_tau("a4")},
+    {"pressure", "pressure against the equation of state", along_tau("Z")},
+    {"collision-rate", "collision rate", logarithmic(along_tau("collision_rate"))},
+    {"tau-c",
+     "end of the homogeneous stage",
+     {.y = "tau_c", .against = "e", .theory = true, .theory_up_to = most_with_theory}},
+    {"rotation", "temperature of rotation over that of translation", along_tau("rotational_ratio")},
+    {"species", "temperatures of the species", along_tau("species_ratio")},
+    {"correlation-trace", "correlated part of the energy", along_tau("correlation_trace")},
+    {"clusters", "largest cluster", along_tau("largest_cluster")},
+    {"distribution", "velocity distribution at the end", logarithmic(profile("rho"))},
+    {"correlation-parallel", "velocity correlation along the separation, at the end",
+     profile("G_parallel")},
+    {"correlation-perpendicular", "velocity correlation across the separation, at the end",
+     profile("G_perpendicular")},
+    {"structure", "structure factor at the end", profile("S")},
+};
+
+}  // namespace
+
+std::span<const GeneralFigure> general_figures() {
+  return figures;
+}
+
+}  // namespace haff::campaign
