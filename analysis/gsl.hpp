@@ -6,9 +6,11 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 
+#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace haff::analysis::gsl {
 
@@ -34,11 +36,51 @@ struct Free {
 template <class T, auto free>
 using Owned = std::unique_ptr<T, Free<free>>;
 
-// A view of any callable double(double) as a gsl_function; the callable must outlive it.
+// An exception must not cross the C functions of GSL that have called us: what is thrown in between
+// is kept, and thrown again once GSL has returned.
+class Caught {
+ public:
+  // The status that GSL is given for it.
+  template <class Work>
+  int status_of(Work&& work) noexcept {
+    try {
+      work();
+      return GSL_SUCCESS;
+    } catch (...) {
+      exception_ = std::current_exception();
+      return GSL_EBADFUNC;
+    }
+  }
+  void rethrow() {
+    if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));
+  }
+
+ private:
+  std::exception_ptr exception_;
+};
+
+// Any callable double(double) as a gsl_function. Both must outlive it.
 template <class Function>
-gsl_function view(const Function& function) {
-  return {[](double x, void* self) { return (*static_cast<const Function*>(self))(x); },
-          const_cast<void*>(static_cast<const void*>(&function))};
-}
+class Called {
+ public:
+  explicit Called(const Function& function) : function_(function) {}
+
+  gsl_function view() { return {call, this}; }
+  void check(int status, const char* doing) {
+    caught_.rethrow();
+    gsl::check(status, doing);
+  }
+
+ private:
+  static double call(double x, void* self) {
+    auto& called = *static_cast<Called*>(self);
+    double value = GSL_NAN;
+    called.caught_.status_of([&] { value = called.function_(x); });
+    return value;
+  }
+
+  const Function& function_;
+  Caught caught_;
+};
 
 }  // namespace haff::analysis::gsl

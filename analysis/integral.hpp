@@ -16,12 +16,13 @@ double integral(const Function& f, double a, double b, double relative, double a
   gsl::report_errors();
   const gsl::Owned<gsl_integration_workspace, gsl_integration_workspace_free> workspace(
       gsl_integration_workspace_alloc(most_intervals));
-  const gsl_function function = gsl::view(f);
+  gsl::Called called(f);
+  const gsl_function function = called.view();
   double result = 0;
   double error = 0;
-  gsl::check(gsl_integration_qag(&function, a, b, absolute, relative, most_intervals,
-                                 GSL_INTEG_GAUSS21, workspace.get(), &result, &error),
-             "quadrature");
+  called.check(gsl_integration_qag(&function, a, b, absolute, relative, most_intervals,
+                                   GSL_INTEG_GAUSS21, workspace.get(), &result, &error),
+               "quadrature");
   return result;
 }
 

@@ -188,6 +188,7 @@ Database::~Database() {
 
 void Database::open_to_read() {
   unlocked_.reset();
+  digests_.reset();
   original_.reset();
   const bool log_exists = identity_of(beside(file_, "-wal")).has_value();
   if (may_write(file_)) {
@@ -286,7 +287,12 @@ void Database::open_to_write(Access access) {
 void Database::bring_forward(const std::function<void()>& afterwards) {
   // The scripts may change the schema's text (004-effects.sql), which no other statement may.
   sqlite3_db_config(sqlite_->getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 0, nullptr);
-  migrate(*sqlite_, path_, scripts(), afterwards);
+  migrate(*sqlite_, path_, scripts(), [&] {
+    const DigestsOfChanges of_changes(digests());
+    digests().digest_tables();
+    if (afterwards) afterwards();
+    digests().settle();
+  });
   sqlite3_db_config(sqlite_->getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
 }
 

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "schema/column.hpp"
+#include "schema/digests.hpp"
 #include "schema/error.hpp"
 #include "schema/file/file_system.hpp"
 #include "schema/file/name.hpp"
@@ -41,6 +42,10 @@ class Database {
   Database& operator=(const Database&) = delete;
 
   SQLite::Database& sqlite() { return *sqlite_; }
+  Digests& digests() {
+    if (!digests_) digests_ = std::make_unique<Digests>(*sqlite_);
+    return *digests_;
+  }
   // The store as it is in the file: sqlite() may be a copy of it that was brought forward.
   SQLite::Database& original() { return original_ ? *original_ : *sqlite_; }
   const std::filesystem::path& path() const { return path_; }  // as the user named it
@@ -98,11 +103,14 @@ class Database {
     return guarded([&] {
       SQLite::Transaction transaction(*sqlite_, SQLite::TransactionBehavior::IMMEDIATE);
       must_be_of_this_version();
+      const DigestsOfChanges of_changes(digests());
       if constexpr (std::is_void_v<decltype(work())>) {
         work();
+        digests().settle();
         transaction.commit();
       } else {
         auto result = work();
+        digests().settle();
         transaction.commit();
         return result;
       }
@@ -130,6 +138,7 @@ class Database {
 
   std::filesystem::path path_, file_;
   std::unique_ptr<SQLite::Database> sqlite_;
+  std::unique_ptr<Digests> digests_;            // of sqlite_
   std::unique_ptr<SQLite::Database> original_;  // of an older version, or none
   std::unique_ptr<SQLite::Database> copier_;    // of the log
   std::optional<FileIdentity> file_identity_, log_identity_;

@@ -4,6 +4,7 @@
 #include "schema/checksum.hpp"
 #include "schema/database.hpp"
 #include "schema/file/backup.hpp"
+#include "schema/job_rows.hpp"
 #include "schema/rows.hpp"
 #include "schema/store.hpp"
 
@@ -166,7 +167,19 @@ std::int64_t Reader::change_counter() const {
       [&] { return database_->sqlite().execAndGet("PRAGMA data_version").getInt64(); });
 }
 
+// The rows are read in the same snapshot.
+void Reader::must_match(std::int64_t job_id, Part part) const {
+  database_->digests().must_match(job_id, part);
+}
+
 std::vector<Sample> Reader::samples(std::int64_t job_id) const {
+  return database_->snapshot([&] {
+    must_match(job_id, Part::samples);
+    return samples_unchecked(job_id);
+  });
+}
+
+std::vector<Sample> Reader::samples_unchecked(std::int64_t job_id) const {
   return database_->guarded([&] {
     SQLite::Statement statement(database_->sqlite(),
                                 "SELECT * FROM samples WHERE job_id = ? ORDER BY tau");
@@ -190,7 +203,8 @@ std::optional<Sample> Reader::last_sample(std::int64_t job_id, double tau) const
 }
 
 std::vector<Profile> Reader::profiles(std::int64_t job_id, const std::string& name) const {
-  return database_->guarded([&] {
+  return database_->snapshot([&] {
+    must_match(job_id, Part::profiles);
     SQLite::Statement points(
         database_->sqlite(),
         "SELECT tau, x, value FROM profiles WHERE job_id = ? AND name = ? ORDER BY tau, x");
@@ -209,7 +223,8 @@ std::vector<Profile> Reader::profiles(std::int64_t job_id, const std::string& na
 }
 
 std::optional<Field> Reader::field(std::int64_t job_id, const std::string& name, double tau) const {
-  return database_->guarded([&]() -> std::optional<Field> {
+  return database_->snapshot([&]() -> std::optional<Field> {
+    must_match(job_id, Part::fields);
     SQLite::Statement row(database_->sqlite(),
                           "SELECT fields.*, d FROM fields JOIN jobs USING (job_id) "
                           "WHERE job_id = ? AND name = ? AND fields.tau = ?");
@@ -233,7 +248,8 @@ std::vector<FieldName> Reader::fields(std::int64_t job_id) const {
 }
 
 std::optional<Results> Reader::results(std::int64_t job_id) const {
-  return database_->guarded([&]() -> std::optional<Results> {
+  return database_->snapshot([&]() -> std::optional<Results> {
+    must_match(job_id, Part::results);
     SQLite::Statement statement(database_->sqlite(), "SELECT * FROM results WHERE job_id = ?");
     statement.bind(1, job_id);
     if (!statement.executeStep()) return std::nullopt;
@@ -242,7 +258,8 @@ std::optional<Results> Reader::results(std::int64_t job_id) const {
 }
 
 std::optional<Invariants> Reader::invariants(std::int64_t job_id) const {
-  return database_->guarded([&]() -> std::optional<Invariants> {
+  return database_->snapshot([&]() -> std::optional<Invariants> {
+    must_match(job_id, Part::invariants);
     SQLite::Statement row(database_->sqlite(), "SELECT * FROM invariants WHERE job_id = ?");
     row.bind(1, job_id);
     if (!row.executeStep()) return std::nullopt;
@@ -254,8 +271,51 @@ std::optional<Invariants> Reader::invariants(std::int64_t job_id) const {
   });
 }
 
+DigestsOfJob Reader::digests(std::int64_t job_id) const {
+  return database_->snapshot([&] {
+    DigestsOfJob found;
+    const bool has_digests = database_->digests().has(job_id);
+    for (std::size_t k = 0; k < part_count; ++k) {
+      const auto part = static_cast<Part>(k);
+      if (!has_digests) {
+        found.wrong.push_back(part);
+        continue;
+      }
+      const auto written = database_->digests().stored(job_id, part);
+      if (!written)
+        found.without.push_back(part);
+      else if (*written != database_->digests().present(job_id, part))
+        found.wrong.push_back(part);
+    }
+    return found;
+  });
+}
+
+std::vector<std::string> Reader::wrong_tables() const {
+  return database_->snapshot([&] { return database_->digests().wrong_tables(); });
+}
+
+void Reader::must_match_digests(const std::vector<Part>& parts) const {
+  database_->snapshot([&] {
+    SQLite::Statement averaged(database_->sqlite(),
+                               "SELECT job_id FROM jobs WHERE kind = 'cooling' AND status = 'done' "
+                               "ORDER BY job_id");
+    while (averaged.executeStep())
+      for (const Part part : parts) must_match(integer(averaged, "job_id"), part);
+  });
+}
+
+std::vector<Difference> Reader::differences(std::int64_t job_id, Part part, const Reader& other,
+                                            std::int64_t job_there) const {
+  return database_->snapshot([&] {
+    return schema::differences({database(), job_id}, {other.database(), job_there}, part);
+  });
+}
+
 std::vector<Target> Reader::targets() const {
-  return database_->guarded([&] {
+  return database_->snapshot([&] {
+    for (const char* table : {"targets", "target_predictions"})
+      database_->digests().must_match_table(table);
     SQLite::Statement row(
         database_->sqlite(),
         "SELECT * FROM targets "
@@ -305,6 +365,7 @@ std::optional<Checkpoint> Reader::checkpoint(std::int64_t job_id) const {
     SQLite::Statement header(database_->sqlite(), "SELECT * FROM checkpoints WHERE job_id = ?");
     header.bind(1, job_id);
     if (!header.executeStep()) return std::nullopt;
+    must_match(job_id, Part::checkpoints);
     const CheckpointInfo info = checkpoint_info(header);
     SQLite::Statement total(database_->sqlite(),
                             "SELECT total(length(bytes)) AS size FROM checkpoint_chunks "

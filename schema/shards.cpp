@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "schema/database.hpp"
+#include "schema/job_rows.hpp"
 #include "schema/rows.hpp"
 #include "schema/store.hpp"
 
@@ -22,8 +23,10 @@ const std::string now = "strftime('%Y-%m-%dT%H:%M:%fZ', 'now')";
 
 // Tables whose rows are written once and never change, and those that hold the newest state of a
 // job. All have a column job_id.
-constexpr std::array written_once{"samples", "profiles", "fields"};
+constexpr std::array written_once{Part::samples, Part::profiles, Part::fields};
 constexpr std::array newest_state{"checkpoints", "checkpoint_chunks", "invariants", "results"};
+constexpr std::array all_parts{Part::jobs,    Part::samples,    Part::profiles,    Part::fields,
+                               Part::results, Part::invariants, Part::checkpoints, Part::loans};
 
 // Columns of jobs that belong to this store, not to the job.
 const std::set<std::string> of_this_store{"job_id",        "equilibration_id", "status",
@@ -34,144 +37,6 @@ const std::set<std::string> of_this_store{"job_id",        "equilibration_id", "
 constexpr std::array progress_columns{"tau",         "collisions",     "attempts", "error",
                                       "starts_over", "started",        "finished", "code_version",
                                       "host",        "physics_version"};
-
-// Two C libraries differ in the last digits of a logarithm, two FFT libraries in those of a
-// transform. Everything else is decided by the trajectory, and equal in every bit.
-double tolerance(std::string_view column) {
-  constexpr double logarithm = 1e-9, transform = 1e-6;  // relative
-  if (column == "gamma_ratio" || column == "tau_c" || column == "time_c") return logarithm;
-  if (column == "value" || column == "correlation_trace") return transform;
-  return 0;
-}
-
-// Same as the one in SQLite: NULL, an integer, a real, a text or a BLOB.
-void bind(SQLite::Statement& statement, int place, const SQLite::Column& value) {
-  if (value.isNull())
-    statement.bind(place);
-  else if (value.isInteger())
-    statement.bind(place, value.getInt64());
-  else if (value.isFloat())
-    statement.bind(place, value.getDouble());
-  else if (value.isText())
-    statement.bind(place, value.getString());
-  else
-    statement.bind(place, value.getBlob(), value.getBytes());
-}
-
-std::string described(const SQLite::Column& value) {
-  if (value.isNull()) return "NULL";
-  if (value.isFloat()) return fmt::format("{:.17g}", value.getDouble());
-  if (value.isBlob()) return fmt::format("a BLOB of {} bytes", value.getBytes());
-  return value.getString();
-}
-
-bool is_same(const SQLite::Column& a, const SQLite::Column& b, double tolerance) {
-  if (a.getType() != b.getType()) return false;
-  if (a.isNull()) return true;
-  if (a.isInteger()) return a.getInt64() == b.getInt64();
-  if (a.isFloat()) {
-    const double x = a.getDouble(), y = b.getDouble();
-    if (std::memcmp(&x, &y, sizeof x) == 0) return true;
-    return std::abs(x - y) <= tolerance * std::max(std::abs(x), std::abs(y));
-  }
-  return a.getBytes() == b.getBytes() &&
-         std::memcmp(a.getBlob(), b.getBlob(), static_cast<std::size_t>(a.getBytes())) == 0;
-}
-
-// The columns of a table, and those of its primary key, but for job_id.
-struct Table {
-  std::string name;
-  std::vector<std::string> columns, key;
-};
-
-Table table_of(SQLite::Database& sqlite, const std::string& name) {
-  Table table{name, {}, {}};
-  SQLite::Statement info(sqlite, "SELECT name, pk FROM pragma_table_info(?)");
-  info.bind(1, name);
-  while (info.executeStep()) {
-    const std::string column = info.getColumn(0).getString();
-    if (column == "job_id") continue;
-    table.columns.push_back(column);
-    if (info.getColumn(1).getInt() > 0) table.key.push_back(column);
-  }
-  return table;
-}
-
-std::string list(const std::vector<std::string>& columns, std::string_view form) {
-  std::string text;
-  for (const std::string& column : columns)
-    text += (text.empty() ? "" : ", ") + fmt::format(fmt::runtime(form), column);
-  return text;
-}
-
-std::string all_equal(const std::vector<std::string>& columns) {
-  std::string text;
-  for (const std::string& column : columns) text += fmt::format(" AND {0} = :{0}", column);
-  return text;
-}
-
-// One job in two stores.
-struct Pair {
-  SQLite::Database& ours;
-  SQLite::Database& theirs;
-  std::int64_t our_id, their_id;
-  std::string where;  // for messages: our file, "and", theirs
-};
-
-void must_be_same(const Pair& pair, const Table& table, const SQLite::Statement& theirs) {
-  SQLite::Statement ours(pair.ours,
-                         fmt::format("SELECT {} FROM {} WHERE job_id = :job_id{}",
-                                     list(table.columns, "{}"), table.name, all_equal(table.key)));
-  ours.bind(":job_id", pair.our_id);
-  for (std::size_t i = 0; i < table.columns.size(); ++i)
-    if (std::ranges::find(table.key, table.columns[i]) != table.key.end())
-      bind(ours, ours.getIndex((":" + table.columns[i]).c_str()),
-           theirs.getColumn(static_cast<int>(i)));
-  ours.executeStep();
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    const auto a = ours.getColumn(static_cast<int>(i)), b = theirs.getColumn(static_cast<int>(i));
-    if (is_same(a, b, tolerance(table.columns[i]))) continue;
-    std::string row;
-    for (const std::string& key : table.key)
-      row += fmt::format(", {} = {}", key, described(theirs.getColumn(key.c_str())));
-    throw Damage(fmt::format(
-        "{}: the {} of job {}{} differ in {}: {} here, {} there. One of the two computations was "
-        "disturbed, or made by another version of the program; nothing of this job was changed",
-        pair.where, table.name, pair.our_id, row, table.columns[i], described(a), described(b)));
-  }
-}
-
-// Adds the rows that we lack, and compares the others. Returns how many were added.
-std::int64_t add_rows(const Pair& pair, const Table& table, bool compare) {
-  SQLite::Statement theirs(pair.theirs, fmt::format("SELECT {} FROM {} WHERE job_id = ?",
-                                                    list(table.columns, "{}"), table.name));
-  theirs.bind(1, pair.their_id);
-  SQLite::Statement insert(
-      pair.ours, fmt::format("INSERT INTO {} (job_id, {}) VALUES (?{}) ON CONFLICT DO NOTHING",
-                             table.name, list(table.columns, "{}"), [&] {
-                               std::string marks;
-                               for (std::size_t i = 0; i < table.columns.size(); ++i)
-                                 marks += ", ?";
-                               return marks;
-                             }()));
-  std::int64_t added = 0;
-  while (theirs.executeStep()) {
-    insert.reset();
-    insert.bind(1, pair.our_id);
-    for (int i = 0; i < theirs.getColumnCount(); ++i) bind(insert, i + 2, theirs.getColumn(i));
-    if (insert.exec() > 0)
-      ++added;
-    else if (compare)
-      must_be_same(pair, table, theirs);
-  }
-  return added;
-}
-
-void drop_rows(SQLite::Database& sqlite, const char* table, std::int64_t job_id) {
-  SQLite::Statement statement(sqlite, fmt::format("DELETE FROM {} WHERE job_id = ?", table));
-  statement.bind(1, job_id);
-  statement.exec();
-}
 
 // ---- jobs -------------------------------------------------------------------------------------
 
@@ -214,8 +79,8 @@ std::int64_t add_job(SQLite::Database& ours, SQLite::Database& theirs, std::int6
                         list(columns, "{}"), list(columns, ":{}")));
   if (start) insert.bind(":equilibration_id", *start);
   for (int i = 0; i < from.getColumnCount(); ++i)
-    bind(insert, insert.getIndex((":" + columns[static_cast<std::size_t>(i)]).c_str()),
-         from.getColumn(i));
+    bind_value(insert, insert.getIndex((":" + columns[static_cast<std::size_t>(i)]).c_str()),
+               from.getColumn(i));
   insert.exec();
 
   const std::int64_t job_id = ours.getLastInsertRowid();
@@ -252,34 +117,36 @@ Status status_after(const JobRow& ours, const JobRow& theirs) {
   return theirs.status;
 }
 
-void take_state(const Pair& pair) {
+void take_state(const RowsOfJob& ours, const RowsOfJob& theirs) {
   for (const char* table : {"checkpoint_chunks", "checkpoints", "invariants", "results"})
-    drop_rows(pair.ours, table, pair.our_id);
-  for (const char* table : newest_state) add_rows(pair, table_of(pair.ours, table), false);
+    drop_rows(ours, table);
+  for (const char* table : newest_state) add_rows(ours, theirs, table);
 }
 
-void take_progress(const Pair& pair, Status status) {
+void take_progress(const RowsOfJob& ours, const RowsOfJob& theirs, Status status) {
   std::vector<std::string> columns(progress_columns.begin(), progress_columns.end());
-  SQLite::Statement from(pair.theirs,
+  SQLite::Statement from(theirs.sqlite(),
                          fmt::format("SELECT {} FROM jobs WHERE job_id = ?", list(columns, "{}")));
-  from.bind(1, pair.their_id);
+  from.bind(1, theirs.job_id);
   from.executeStep();
   SQLite::Statement update(
-      pair.ours, fmt::format("UPDATE jobs SET {}, status = :status, lease = lease + 1, "
-                             "owner_boot_id = NULL, owner_pid = NULL, owner_started = NULL, "
-                             "renewed = NULL WHERE job_id = :job_id",
-                             list(columns, "{0} = :{0}")));
+      ours.sqlite(), fmt::format("UPDATE jobs SET {}, status = :status, lease = lease + 1, "
+                                 "owner_boot_id = NULL, owner_pid = NULL, owner_started = NULL, "
+                                 "renewed = NULL WHERE job_id = :job_id",
+                                 list(columns, "{0} = :{0}")));
   for (int i = 0; i < from.getColumnCount(); ++i)
-    bind(update, update.getIndex((":" + columns[static_cast<std::size_t>(i)]).c_str()),
-         from.getColumn(i));
+    bind_value(update, update.getIndex((":" + columns[static_cast<std::size_t>(i)]).c_str()),
+               from.getColumn(i));
   update.bind(":status", std::string(name(status)));
-  update.bind(":job_id", pair.our_id);
+  update.bind(":job_id", ours.job_id);
   update.exec();
 }
 
 // Adds what this shard has spent on the job since it was last merged.
-void take_cost(SQLite::Database& sqlite, const std::string& shard, std::int64_t job_id,
+void take_cost(Database& database, const std::string& shard, std::int64_t job_id,
                double cpu_seconds) {
+  SQLite::Database& sqlite = database.sqlite();
+  database.digests().must_match(job_id, Part::loans);
   SQLite::Statement add(sqlite, R"(
     UPDATE jobs SET cpu_seconds = cpu_seconds + max(0, :cpu_seconds - cpu_seconds_before) -
                                   cpu_seconds_spent
@@ -296,6 +163,7 @@ void take_cost(SQLite::Database& sqlite, const std::string& shard, std::int64_t 
   spent.bind(2, shard);
   spent.bind(3, job_id);
   spent.exec();
+  database.digests().changed(job_id, Part::loans);
 }
 
 Shard shard_of(const SQLite::Statement& row) {
@@ -350,6 +218,7 @@ std::vector<Shard> Reader::shards() const {
 void Store::lend(const std::vector<Loan>& loans) {
   database().transaction([&] {
     SQLite::Database& sqlite = database().sqlite();
+    database().digests().must_match_table("shards");
     std::set<std::int64_t> lent_now;
     for (const Loan& loan : loans) {
       SQLite::Statement shard(sqlite,
@@ -363,7 +232,10 @@ void Store::lend(const std::vector<Loan>& loans) {
         if (row.status != Status::pending && !lent_now.contains(job_id))
           throw StoreError(fmt::format("{}: job {} is {} meanwhile; give the same command again",
                                        path().string(), job_id, name(row.status)));
-        lent_now.insert(job_id);
+        if (lent_now.insert(job_id).second) {
+          database().digests().must_match(job_id, Part::jobs);
+          database().digests().must_match(job_id, Part::loans);
+        }
         SQLite::Statement lend(sqlite, "UPDATE jobs SET status = 'lent' WHERE job_id = ?");
         lend.bind(1, job_id);
         lend.exec();
@@ -373,6 +245,7 @@ void Store::lend(const std::vector<Loan>& loans) {
         note.bind(2, job_id);
         note.bind(3, row.progress.cpu_seconds);
         note.exec();
+        database().digests().changed(job_id, Part::loans);
       }
     }
   });
@@ -380,6 +253,7 @@ void Store::lend(const std::vector<Loan>& loans) {
 
 void Store::become_shard(const std::string& campaign_id, const std::string& name) {
   database().transaction([&] {
+    database().digests().must_match_table("campaign");
     SQLite::Statement statement(database().sqlite(),
                                 "UPDATE campaign SET campaign_id = ?, shard = ?");
     statement.bind(1, campaign_id);
@@ -390,28 +264,33 @@ void Store::become_shard(const std::string& campaign_id, const std::string& name
 
 Arrival Store::take_over(const Reader& other, std::int64_t job_id, const std::string& shard) {
   return other.database().snapshot([&] {
-    SQLite::Database& theirs = other.database().sqlite();
+    for (const Part part : all_parts) other.database().digests().must_match(job_id, part);
     return database().transaction([&] {
-      SQLite::Database& ours = database().sqlite();
-      const auto known = id_of(ours, identity_of(theirs, job_id));
-      const std::int64_t our_id = known ? *known : add_job(ours, theirs, job_id);
-      const Pair pair{ours, theirs, our_id, job_id,
-                      path().string() + " and " + other.path().string()};
-      const JobRow here = row_of(ours, our_id), there = row_of(theirs, job_id);
+      SQLite::Database& sqlite = database().sqlite();
+      Digests& digests = database().digests();
+      const RowsOfJob theirs{other.database(), job_id};
+      const auto known = id_of(sqlite, identity_of(theirs.sqlite(), job_id));
+      if (known) digests.must_match(*known, Part::jobs);
+      const std::int64_t our_id = known ? *known : add_job(sqlite, theirs.sqlite(), job_id);
+      const RowsOfJob ours{database(), our_id};
+      const JobRow here = row_of(sqlite, our_id), there = row_of(theirs.sqlite(), job_id);
 
       Arrival arrival;
-      for (const char* table : written_once)
-        arrival.rows += add_rows(pair, table_of(ours, table), true);
-      const double our_tau = kept_tau(ours, here), their_tau = kept_tau(theirs, there);
+      for (const Part part : written_once) {
+        arrival.rows += add_and_compare_rows(ours, theirs, part);
+        // Rows that nobody vouches for are not vouched for here.
+        if (!other.database().digests().stored(job_id, part)) digests.forget(our_id, part);
+      }
+      const double our_tau = kept_tau(sqlite, here), their_tau = kept_tau(theirs.sqlite(), there);
       const bool has_ended_there = has_ended(there.status) && !has_ended(here.status);
       arrival.advanced = their_tau > our_tau || (their_tau == our_tau && has_ended_there);
       if (arrival.advanced) {
-        take_state(pair);
-        take_progress(pair, status_after(here, there));
+        take_state(ours, theirs);
+        take_progress(ours, theirs, status_after(here, there));
       } else if (their_tau == our_tau) {
-        add_rows(pair, table_of(ours, "results"), true);
+        add_and_compare_rows(ours, theirs, Part::results);
       }
-      if (!shard.empty()) take_cost(ours, shard, our_id, there.progress.cpu_seconds);
+      if (!shard.empty()) take_cost(database(), shard, our_id, there.progress.cpu_seconds);
       return arrival;
     });
   });
@@ -421,6 +300,7 @@ void Store::note_merge(const std::string& shard) {
   database().transaction([&] {
     SQLite::Database& sqlite = database().sqlite();
     must_be_known(sqlite, path(), shard);
+    database().digests().must_match_table("shards");
     SQLite::Statement statement(sqlite, "UPDATE shards SET merged = " + now +
                                             R"(, returned = coalesce(returned, iif(EXISTS (
           SELECT 1 FROM loans JOIN jobs USING (job_id)
@@ -436,17 +316,27 @@ std::int64_t Store::recall(const std::string& shard) {
   return database().transaction([&] {
     SQLite::Database& sqlite = database().sqlite();
     must_be_known(sqlite, path(), shard);
+    database().digests().must_match_table("shards");
     SQLite::Statement back(
         sqlite, "UPDATE shards SET returned = coalesce(returned, " + now + ") WHERE shard = ?");
     back.bind(1, shard);
     back.exec();
     SQLite::Statement jobs(sqlite, R"(
-      UPDATE jobs SET status = 'pending'
+      SELECT job_id FROM jobs
       WHERE status = 'lent' AND job_id IN (SELECT job_id FROM loans WHERE shard = :shard)
         AND NOT EXISTS (SELECT 1 FROM loans JOIN shards USING (shard)
                         WHERE loans.job_id = jobs.job_id AND shards.returned IS NULL))");
     jobs.bind(":shard", shard);
-    return static_cast<std::int64_t>(jobs.exec());
+    std::vector<std::int64_t> recalled;
+    while (jobs.executeStep()) recalled.push_back(integer(jobs, "job_id"));
+    SQLite::Statement recall(sqlite, "UPDATE jobs SET status = 'pending' WHERE job_id = ?");
+    for (const std::int64_t job_id : recalled) {
+      database().digests().must_match(job_id, Part::jobs);
+      recall.reset();
+      recall.bind(1, job_id);
+      recall.exec();
+    }
+    return static_cast<std::int64_t>(recalled.size());
   });
 }
 

@@ -4,11 +4,14 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <span>
 #include <stdexcept>
 
 #include "schema/checksum.hpp"
+#include "schema/contradiction.hpp"
 #include "schema/database.hpp"
+#include "schema/job_rows.hpp"
 #include "schema/rows.hpp"
 #include "schema/sample_columns.hpp"
 
@@ -27,15 +30,19 @@ void bind(SQLite::Statement& statement, const char* name, std::optional<double> 
 
 // ---- planning ---------------------------------------------------------------------------------
 
+std::optional<std::int64_t> id_of(SQLite::Database& sqlite, const Job& job) {
+  SQLite::Statement statement(sqlite, "SELECT job_id FROM jobs WHERE identity = ?");
+  statement.bind(1, identity(job));
+  if (!statement.executeStep()) return std::nullopt;
+  return integer(statement, "job_id");
+}
+
 // The job that a cooling job starts from; nothing for an equilibration.
 std::optional<std::int64_t> equilibration_id(SQLite::Database& sqlite, const Job& job) {
   if (job.kind == Kind::equilibration) return std::nullopt;
-  const std::string start = identity(equilibration_of(job));
-  SQLite::Statement statement(sqlite, "SELECT job_id FROM jobs WHERE identity = ?");
-  statement.bind(1, start);
-  if (!statement.executeStep())
-    throw std::logic_error("a plan lacks the equilibration of its jobs: " + start);
-  return integer(statement, "job_id");
+  const Job start = equilibration_of(job);
+  if (const auto id = id_of(sqlite, start)) return id;
+  throw std::logic_error("a plan lacks the equilibration of its jobs: " + identity(start));
 }
 
 void insert(SQLite::Database& sqlite, const Planned& planned) {
@@ -85,10 +92,14 @@ void extend(SQLite::Database& sqlite, const Planned& planned) {
   statement.exec();
 }
 
-Outcome add(SQLite::Database& sqlite, const Planned& planned) {
+Outcome add(Database& database, const Planned& planned) {
+  SQLite::Database& sqlite = database.sqlite();
   const Outcome what = outcome(sqlite, planned);
   if (what == Outcome::added) insert(sqlite, planned);
-  if (what == Outcome::extended) extend(sqlite, planned);
+  if (what == Outcome::extended) {
+    database.digests().must_match(id_of(sqlite, planned.job).value(), Part::jobs);
+    extend(sqlite, planned);
+  }
   return what;
 }
 
@@ -107,6 +118,7 @@ void must_hold(Database& database, const Lease& lease) {
     throw LeaseLost(database.path().string() + ": job " + std::to_string(lease.job_id) +
                     " has passed to another worker; what this one did since its last commit is "
                     "dropped");
+  database.digests().must_match(lease.job_id, Part::jobs);
 }
 
 void report(SQLite::Database& sqlite, const Lease& lease, const Progress& progress) {
@@ -153,6 +165,43 @@ void leave(SQLite::Database& sqlite, const Lease& lease, Status status) {
   statement.exec();
 }
 
+// The row of this job is not as it was written. It is worked on no further, and stays known as
+// wrong: what it said may be seen, and `campaign verify --repair` puts it right.
+void condemn(Database& database, std::int64_t job_id, const std::string& why) {
+  SQLite::Statement statement(database.sqlite(), R"(
+    UPDATE jobs SET status = 'failed', error = ?, owner_boot_id = NULL, owner_pid = NULL,
+                    owner_started = NULL, renewed = NULL
+    WHERE job_id = ?)");
+  statement.bind(1, printable(why));
+  statement.bind(2, job_id);
+  statement.exec();
+  database.digests().leave_alone(job_id);
+}
+
+// Whether the job's row is as it was written. If not, it is condemned.
+bool is_as_written(Database& database, std::int64_t job_id) {
+  try {
+    database.digests().must_match(job_id, Part::jobs);
+    return true;
+  } catch (const BadValue& bad) {
+    condemn(database, job_id, bad.what());
+    return false;
+  }
+}
+
+// For the end of a lease: false if the row of its job had to be condemned.
+bool is_held(Database& database, const Lease& lease) {
+  if (!holds(database.sqlite(), lease)) must_hold(database, lease);
+  return is_as_written(database, lease.job_id);
+}
+
+std::vector<std::int64_t> ids(SQLite::Database& sqlite, const char* sql) {
+  SQLite::Statement statement(sqlite, sql);
+  std::vector<std::int64_t> found;
+  while (statement.executeStep()) found.push_back(statement.getColumn(0).getInt64());
+  return found;
+}
+
 void must_be_finite(const Lease& lease, const Sample& sample) {
   bool sound = std::isfinite(sample.tau) && std::isfinite(sample.time);
   for (const SampleColumn& column : sample_columns)
@@ -172,19 +221,22 @@ void must_agree(SQLite::Database& sqlite, const Lease& lease, const Sample& agai
   const Sample stored = sample(statement);
   if (stored.time != again.time || stored.temperature != again.temperature)
     throw Damage("job " + std::to_string(lease.job_id) +
-                 ": the sample at tau = " + std::to_string(again.tau) +
-                 " came out different when it was computed again; one of the two computations "
-                 "was disturbed, or the program that made the first has changed");
+                 ": the sample at tau = " + std::to_string(again.tau) + " " + came_out_different +
+                 "; one of the two computations was disturbed, or the program that made the first "
+                 "has changed");
 }
 
-void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Sample>& samples) {
+void insert(Database& database, const Lease& lease, const std::vector<Sample>& samples) {
+  if (samples.empty()) return;
+  const DigestedTable& table = database.digests().table(Part::samples);
   std::string names = "job_id, tau, time", places = "?, ?, ?";
   for (const SampleColumn& column : sample_columns) {
     names += std::string(", ") + column.name;
     places += ", ?";
   }
-  SQLite::Statement statement(
-      sqlite, "INSERT INTO samples (" + names + ") VALUES (" + places + ") ON CONFLICT DO NOTHING");
+  SQLite::Statement statement(database.sqlite(),
+                              "INSERT INTO samples (" + names + ") VALUES (" + places +
+                                  ") ON CONFLICT DO NOTHING RETURNING " + table.columns());
   for (const Sample& sample : samples) {
     must_be_finite(lease, sample);
     statement.reset();
@@ -197,17 +249,23 @@ void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Samp
       if (const auto& value = sample.*column.value) statement.bind(place, *value);
       ++place;
     }
-    if (statement.exec() == 0) must_agree(sqlite, lease, sample);
+    if (statement.executeStep())
+      database.digests().added(lease.job_id, Part::samples, table.digest(statement));
+    else
+      must_agree(database.sqlite(), lease, sample);
   }
 }
 
 // Profiles that are there already are kept: the samples beside them say whether the gas is the
 // same, and the last digits of a transform may differ between two libraries.
-void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Profile>& profiles) {
+void insert(Database& database, const Lease& lease, const std::vector<Profile>& profiles) {
+  if (profiles.empty()) return;
+  const DigestedTable& table = database.digests().table(Part::profiles);
   SQLite::Statement statement(
-      sqlite,
+      database.sqlite(),
       "INSERT INTO profiles (job_id, name, tau, x, value) VALUES (?, ?, ?, ?, ?) "
-      "ON CONFLICT DO NOTHING");
+      "ON CONFLICT DO NOTHING RETURNING " +
+          table.columns());
   for (const Profile& profile : profiles) {
     if (profile.x.size() != profile.value.size())
       throw std::logic_error("the profile " + profile.name + " has not as many values as places");
@@ -222,17 +280,21 @@ void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Prof
       statement.bind(3, profile.tau);
       statement.bind(4, profile.x[i]);
       statement.bind(5, profile.value[i]);
-      statement.exec();
+      if (statement.executeStep())
+        database.digests().added(lease.job_id, Part::profiles, table.digest(statement));
     }
   }
 }
 
-void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Field>& fields) {
+void insert(Database& database, const Lease& lease, const std::vector<Field>& fields) {
   static_assert(std::endian::native == std::endian::little, "the store holds little-endian reals");
+  if (fields.empty()) return;
+  const DigestedTable& table = database.digests().table(Part::fields);
   SQLite::Statement statement(
-      sqlite,
+      database.sqlite(),
       "INSERT INTO fields (job_id, name, tau, cells, components, box, data) "
-      "VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
+      "VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING RETURNING " +
+          table.columns());
   for (const Field& field : fields) {
     statement.reset();
     statement.bind(1, lease.job_id);
@@ -243,7 +305,8 @@ void insert(SQLite::Database& sqlite, const Lease& lease, const std::vector<Fiel
     statement.bind(6, field.box);
     statement.bindNoCopy(7, field.values.data(),
                          static_cast<int>(field.values.size() * sizeof(double)));
-    statement.exec();
+    if (statement.executeStep())
+      database.digests().added(lease.job_id, Part::fields, table.digest(statement));
   }
 }
 
@@ -316,9 +379,9 @@ class Entry {
 
   void write(Database& database) const {
     must_hold(database, lease_);
-    insert(database.sqlite(), lease_, commit_.samples);
-    insert(database.sqlite(), lease_, commit_.profiles);
-    insert(database.sqlite(), lease_, commit_.fields);
+    insert(database, lease_, commit_.samples);
+    insert(database, lease_, commit_.profiles);
+    insert(database, lease_, commit_.fields);
     if (commit_.checkpoint) replace(database.sqlite(), lease_, *commit_.checkpoint, sum_);
     if (commit_.invariants) replace(database.sqlite(), lease_, *commit_.invariants);
     if (commit_.physics_version) note_physics(database.sqlite(), lease_, *commit_.physics_version);
@@ -362,7 +425,8 @@ int Store::upgrade(const std::filesystem::path& path, const std::vector<Lease>& 
     const int before = version_of(sqlite);
     database.bring_forward([&] {
       for (const Lease& lease : dead)
-        if (holds(sqlite, lease)) leave(sqlite, lease, Status::pending);
+        if (holds(sqlite, lease) && is_as_written(database, lease.job_id))
+          leave(sqlite, lease, Status::pending);
       SQLite::Statement running(sqlite, "SELECT * FROM jobs WHERE status = 'running'");
       if (running.executeStep())
         throw StoreError(path.string() + ": job " + std::to_string(integer(running, "job_id")) +
@@ -399,13 +463,14 @@ std::vector<Outcome> Store::add(const std::vector<Planned>& plan) {
     std::vector<Outcome> outcomes(plan.size());
     for (const Kind kind : {Kind::equilibration, Kind::cooling})
       for (std::size_t i = 0; i < plan.size(); ++i)
-        if (plan[i].job.kind == kind) outcomes[i] = schema::add(database().sqlite(), plan[i]);
+        if (plan[i].job.kind == kind) outcomes[i] = schema::add(database(), plan[i]);
     return outcomes;
   });
 }
 
 void Store::add(const std::vector<Target>& targets) {
   database().transaction([&] {
+    database().digests().must_match_table("targets");
     SQLite::Statement statement(database().sqlite(), R"(
       INSERT INTO targets (series, quantity, tau_from, tau_to, se, pilots)
       VALUES (:series, :quantity, :tau_from, :tau_to, :se, :pilots)
@@ -425,6 +490,7 @@ void Store::add(const std::vector<Target>& targets) {
 
 void Store::predict(const Target& target, const Prediction& prediction) {
   database().transaction([&] {
+    database().digests().must_match_table("target_predictions");
     SQLite::Statement statement(database().sqlite(), R"(
       INSERT INTO target_predictions
         (series, quantity, tau_from, tau_to, se, realizations, cpu_seconds, created)
@@ -448,6 +514,24 @@ void Store::wait_for_locks_while(bool (*may_wait)()) {
 std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_version,
                                   const std::optional<Fit>& fit) {
   return database().transaction([&]() -> std::optional<Claim> {
+    SQLite::Statement next(database().sqlite(), "SELECT jobs.job_id " +
+                                                    std::string(from_claimable_jobs) + "AND " +
+                                                    seconds_to_next_tau + R"( <= :seconds
+        ORDER BY jobs.kind = 'equilibration' DESC,
+                 coalesce(jobs.expected_cpu_seconds, 0) * (1 - jobs.tau / jobs.tau_max) DESC,
+                 jobs.particles * (jobs.tau_max - jobs.tau) DESC,
+                 jobs.job_id
+        LIMIT 1)");
+    next.bind(":seconds", fit ? fit->seconds : std::numeric_limits<double>::max());
+    next.bind(":tau", fit ? fit->tau : 0);
+    std::int64_t job_id = 0;
+    do {
+      next.reset();
+      if (!next.executeStep()) return std::nullopt;
+      job_id = next.getColumn(0).getInt64();
+      next.reset();
+    } while (!is_as_written(database(), job_id));
+
     SQLite::Statement statement(database().sqlite(), R"(
       UPDATE jobs SET status = 'running', lease = lease + 1, host = :host,
                       owner_boot_id = :boot_id, owner_pid = :pid, owner_started = :started,
@@ -455,24 +539,15 @@ std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_ve
                                                          now + R"(,
                       started = coalesce(started, )" + now +
                                                          R"()
-      WHERE job_id = (
-        SELECT jobs.job_id )" + std::string() + from_claimable_jobs +
-                                                         R"(
-          AND )" + seconds_to_next_tau + R"( <= :seconds
-        ORDER BY jobs.kind = 'equilibration' DESC,
-                 coalesce(jobs.expected_cpu_seconds, 0) * (1 - jobs.tau / jobs.tau_max) DESC,
-                 jobs.particles * (jobs.tau_max - jobs.tau) DESC,
-                 jobs.job_id
-        LIMIT 1)
+      WHERE job_id = :job_id
       RETURNING *)");
     statement.bind(":host", owner.host);
     statement.bind(":boot_id", owner.boot_id);
     statement.bind(":pid", owner.pid);
     statement.bind(":started", owner.started);
     statement.bind(":code_version", code_version);
-    statement.bind(":seconds", fit ? fit->seconds : std::numeric_limits<double>::max());
-    statement.bind(":tau", fit ? fit->tau : 0);
-    if (!statement.executeStep()) return std::nullopt;
+    statement.bind(":job_id", job_id);
+    statement.executeStep();
     const JobRow row = job_row(statement);
     return Claim{.lease = {row.job_id, integer(statement, "lease")},
                  .job = row.job,
@@ -523,7 +598,7 @@ Status Store::finish(const Lease& lease, const Commit& commit,
 
 Status Store::fail(const Lease& lease, const std::string& error, bool again) {
   return database().transaction([&] {
-    must_hold(database(), lease);
+    if (!is_held(database(), lease)) return Status::failed;
     SQLite::Statement statement(database().sqlite(), R"(
       UPDATE jobs SET attempts = attempts + 1, error = :error WHERE job_id = :job_id
       RETURNING attempts)");
@@ -554,15 +629,15 @@ void Store::collapse(const Lease& lease, const Commit& commit, const std::string
 
 void Store::release(const Lease& lease) {
   database().transaction([&] {
-    must_hold(database(), lease);
-    leave(database().sqlite(), lease, Status::pending);
+    if (is_held(database(), lease)) leave(database().sqlite(), lease, Status::pending);
   });
 }
 
 bool Store::reclaim(const Lease& lease) {
   return database().transaction([&] {
     const bool held = holds(database().sqlite(), lease);
-    if (held) leave(database().sqlite(), lease, Status::pending);
+    if (held && is_as_written(database(), lease.job_id))
+      leave(database().sqlite(), lease, Status::pending);
     return held;
   });
 }
@@ -570,13 +645,22 @@ bool Store::reclaim(const Lease& lease) {
 std::int64_t Store::retry_failed() {
   return database().transaction([&] {
     SQLite::Statement statement(database().sqlite(), R"(
-      UPDATE jobs SET status = 'pending', attempts = 0, finished = NULL WHERE status = 'failed')");
-    return static_cast<std::int64_t>(statement.exec());
+      UPDATE jobs SET status = 'pending', attempts = 0, finished = NULL WHERE job_id = ?)");
+    std::int64_t reopened = 0;
+    for (const std::int64_t job_id :
+         ids(database().sqlite(), "SELECT job_id FROM jobs WHERE status = 'failed'")) {
+      if (!is_as_written(database(), job_id)) continue;
+      statement.reset();
+      statement.bind(1, job_id);
+      reopened += statement.exec();
+    }
+    return reopened;
   });
 }
 
 bool Store::restart(std::int64_t job_id) {
   return database().transaction([&] {
+    database().digests().must_match(job_id, Part::jobs);
     const auto change = [&](const char* sql) {
       SQLite::Statement statement(database().sqlite(), sql);
       statement.bind(1, job_id);
@@ -589,6 +673,56 @@ bool Store::restart(std::int64_t job_id) {
       return false;
     change("DELETE FROM invariants WHERE job_id = ?");
     return true;
+  });
+}
+
+std::int64_t Store::replace_rows(std::int64_t job_id, Part part, const Reader& other,
+                                 std::int64_t job_there) {
+  return database().transaction([&] {
+    const RowsOfJob ours{database(), job_id}, theirs{other.database(), job_there};
+    std::set<std::string> rows;
+    for (const Difference& difference : schema::differences(ours, theirs, part))
+      if (!difference.is_in_last_digits) rows.insert(difference.row);
+    const bool is_state = part == Part::checkpoints;
+    if (is_state) drop_rows(ours, "checkpoint_chunks");
+    drop_differing_rows(ours, theirs, part);
+    add_rows(ours, theirs, name(part));
+    if (is_state) add_rows(ours, theirs, "checkpoint_chunks");
+    database().digests().changed(job_id, part);
+    return static_cast<std::int64_t>(rows.size());
+  });
+}
+
+void Store::digest_again(std::int64_t job_id, Part part) {
+  database().transaction([&] {
+    SQLite::Statement make(database().sqlite(),
+                           "INSERT OR IGNORE INTO digests (job_id) VALUES (?)");
+    make.bind(1, job_id);
+    make.exec();
+    database().digests().changed(job_id, part);
+  });
+}
+
+void Store::digest_table_again(const std::string& table) {
+  database().transaction([&] { database().digests().changed_table(table); });
+}
+
+std::int64_t Store::drop_rows_after(std::int64_t job_id, double tau) {
+  return database().transaction([&] {
+    const auto drop = [&](Part part) {
+      SQLite::Statement statement(database().sqlite(), std::string("DELETE FROM ") + name(part) +
+                                                           " WHERE job_id = ? AND tau > ?");
+      statement.bind(1, job_id);
+      statement.bind(2, tau);
+      const std::int64_t dropped = statement.exec();
+      database().digests().changed(job_id, part);
+      return dropped;
+    };
+    const std::int64_t samples = drop(Part::samples);
+    drop(Part::profiles);
+    drop(Part::fields);
+    drop_rows({database(), job_id}, name(Part::results));
+    return samples;
   });
 }
 

@@ -129,6 +129,29 @@ struct Progress {
   double cpu_seconds = 0;  // over all attempts: what the claim said, plus the worker's own
 };
 
+// ---- digests ----------------------------------------------------------------------------------
+
+// What a job has in the store, by the table that holds it. Each has a digest (017-digests.sql).
+enum class Part { jobs, samples, profiles, fields, results, invariants, checkpoints, loans };
+inline constexpr std::size_t part_count = 8;
+const char* name(Part part);  // of the table
+
+// What the digests say of a job.
+struct DigestsOfJob {
+  std::vector<Part> wrong = {};    // these rows are not as they were written
+  std::vector<Part> without = {};  // these have none: a program of an older version wrote them
+};
+
+// Where the rows of two stores differ.
+struct Difference {
+  Part part = Part::samples;
+  std::string row;          // "tau = 3", "name = S, tau = 10, x = 0.5"; of a job's only row: empty
+  std::string column = {};  // none: one of the two lacks the row
+  std::string here, there;  // both values, with all digits
+  // Of a logarithm or a transform, which differ that little between two libraries.
+  bool is_in_last_digits = false;
+};
+
 // ---- planning ---------------------------------------------------------------------------------
 
 struct Planned {
@@ -271,6 +294,11 @@ class Reader {
   // Changes whenever another connection has changed the store.
   std::int64_t change_counter() const;
 
+  // ---- what jobs have measured ----
+  //
+  // Each throws Damage, naming the job, if the rows are not as they were written: whatever averages
+  // or goes on from them, refuses them.
+
   std::vector<Sample> samples(std::int64_t job_id) const;  // by tau
   // The job's last sample with sample.tau <= tau: what a resumed job goes on from.
   std::optional<Sample> last_sample(std::int64_t job_id, double tau) const;
@@ -280,6 +308,20 @@ class Reader {
   std::vector<FieldName> fields(std::int64_t job_id) const;  // those the job has
   std::optional<Results> results(std::int64_t job_id) const;
   std::optional<Invariants> invariants(std::int64_t job_id) const;
+
+  // ---- digests ----
+
+  DigestsOfJob digests(std::int64_t job_id) const;
+  // Tables that are digested as a whole and are not as they were written.
+  std::vector<std::string> wrong_tables() const;
+  // For whoever reads the views that average: throws Damage, naming the jobs, unless these parts of
+  // all finished cooling jobs are as they were written.
+  void must_match_digests(const std::vector<Part>& parts) const;
+  // The samples as they are, whatever their digest says: to find out what is wrong with them.
+  std::vector<Sample> samples_unchecked(std::int64_t job_id) const;
+  // Where this store's rows of a job differ from those of another.
+  std::vector<Difference> differences(std::int64_t job_id, Part part, const Reader& other,
+                                      std::int64_t job_there) const;
 
   std::vector<Target> targets() const;  // by series, quantity, window
 
@@ -317,6 +359,7 @@ class Reader {
   Database& database() const { return *database_; }
 
  private:
+  void must_match(std::int64_t job_id, Part part) const;
   std::unique_ptr<Database> database_;
 };
 
@@ -405,6 +448,21 @@ class Store : public Reader {
   // stay and are compared when they come out again. False, and nothing done, if a worker or a
   // shard holds the job.
   bool restart(std::int64_t job_id);
+
+  // Where rows of this part differ from those of the other store, puts the other's in their place;
+  // the part is digested as it is then. Returns how many rows differed.
+  std::int64_t replace_rows(std::int64_t job_id, Part part, const Reader& other,
+                            std::int64_t job_there);
+  // This part of a job was found to be right by other means: it is digested as it is.
+  void digest_again(std::int64_t job_id, Part part);
+  void digest_table_again(const std::string& table);
+  // A job's row of the table jobs is not as it was written. If one bit turned back makes it so,
+  // turns it back, and says which value was changed, from what, to what. Nothing, and nothing done,
+  // if no single bit does.
+  std::optional<Difference> turn_bit_back(std::int64_t job_id);
+  // For a job whose rows contradict themselves, and that nobody holds: drops the rows after tau,
+  // with the results. What is left is digested as it is. Returns how many samples were dropped.
+  std::int64_t drop_rows_after(std::int64_t job_id, double tau);
 
   // Lend pending jobs to new shards: one transaction. Throws StoreError if a job is no longer
   // pending (a run has taken it), or a shard of that name is there.

@@ -33,7 +33,9 @@ class Solution {
   // To s at or after where it is.
   void advance(double s) {
     if (s > s_) {
-      gsl::check(gsl_odeiv2_driver_apply(driver_.get(), &s_, s, state_.data()), "energy equation");
+      const int status = gsl_odeiv2_driver_apply(driver_.get(), &s_, s, state_.data());
+      caught_.rethrow();
+      gsl::check(status, "energy equation");
     }
   }
 
@@ -65,16 +67,18 @@ class Solution {
   }
 
   static int derivative(double s, const double y[], double dydt[], void* self) {
-    const auto& solution = *static_cast<const Solution*>(self);
-    dydt[0] = solution.slope(s, y);
-    dydt[1] = solution.growth_(s);
-    return GSL_SUCCESS;
+    auto& solution = *static_cast<Solution*>(self);
+    return solution.caught_.status_of([&] {
+      dydt[0] = solution.slope(s, y);
+      dydt[1] = solution.growth_(s);
+    });
   }
 
   Gas gas_;
   Velocities velocities_;
   TraceGrowth growth_;
   double decay_;
+  gsl::Caught caught_;
   gsl_odeiv2_system system_{};
   gsl::Owned<gsl_odeiv2_driver, gsl_odeiv2_driver_free> driver_;
   std::array<double, 2> state_ = {1, 0};
@@ -123,6 +127,7 @@ struct Measured {
   Gas gas;
   Velocities velocities = Velocities::gaussian;
   std::vector<double> tau, log_energy, log_error;
+  gsl::Caught caught = {};  // of residuals()
 };
 
 Measured measured(const Gas& gas, std::span<const double> tau, std::span<const double> energy,
@@ -150,14 +155,15 @@ Measured measured(const Gas& gas, std::span<const double> tau, std::span<const d
 
 // Residuals in standard errors; the parameter is ln b, which keeps b positive.
 int residuals(const gsl_vector* log_b, void* data, gsl_vector* result) {
-  const auto& series = *static_cast<const Measured*>(data);
-  const auto theory = energy_equation(series.gas, series.tau, std::exp(gsl_vector_get(log_b, 0)),
-                                      series.velocities);
-  for (std::size_t i = 0; i < theory.size(); ++i) {
-    const double difference = std::log(theory[i].energy) - series.log_energy[i];
-    gsl_vector_set(result, i, difference / series.log_error[i]);
-  }
-  return GSL_SUCCESS;
+  auto& series = *static_cast<Measured*>(data);
+  return series.caught.status_of([&] {
+    const auto theory = energy_equation(series.gas, series.tau, std::exp(gsl_vector_get(log_b, 0)),
+                                        series.velocities);
+    for (std::size_t i = 0; i < theory.size(); ++i) {
+      const double difference = std::log(theory[i].energy) - series.log_energy[i];
+      gsl_vector_set(result, i, difference / series.log_error[i]);
+    }
+  });
 }
 
 }  // namespace
@@ -181,10 +187,13 @@ CutoffFit fit_cutoff(const Gas& gas, std::span<const double> tau, std::span<cons
       gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, samples, 1));
   const gsl::Owned<gsl_vector, gsl_vector_free> start(gsl_vector_alloc(1));
   gsl_vector_set(start.get(), 0, std::log(cutoff_b));
-  gsl::check(gsl_multifit_nlinear_init(start.get(), &problem, fit.get()), "fit of b");
+  const int begun = gsl_multifit_nlinear_init(start.get(), &problem, fit.get());
+  series.caught.rethrow();
+  gsl::check(begun, "fit of b");
   int reason = 0;
   const int status = gsl_multifit_nlinear_driver(
       most_iterations, step_tolerance, gradient_tolerance, 0, nullptr, nullptr, &reason, fit.get());
+  series.caught.rethrow();
   // GSL calls it a failure if no step from the start improves the fit; here the start was right.
   if (reason != GSL_ENOPROG) gsl::check(status, "fit of b");
 

@@ -72,13 +72,14 @@ namespace {
 template <class Difference>
 double ratio_of(const Difference& difference) {
   gsl::report_errors();
-  gsl_function function = gsl::view(difference);
+  gsl::Called called(difference);
+  gsl_function function = called.view();
   const gsl::Owned<gsl_root_fsolver, gsl_root_fsolver_free> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent));
-  gsl::check(gsl_root_fsolver_set(solver.get(), &function, -std::log(widest), std::log(widest)),
-             "the temperature ratio of a mixture");
+  called.check(gsl_root_fsolver_set(solver.get(), &function, -std::log(widest), std::log(widest)),
+               "the temperature ratio of a mixture");
   for (int step = 0; step < 200; ++step) {
-    gsl::check(gsl_root_fsolver_iterate(solver.get()), "the temperature ratio of a mixture");
+    called.check(gsl_root_fsolver_iterate(solver.get()), "the temperature ratio of a mixture");
     if (gsl_root_test_interval(gsl_root_fsolver_x_lower(solver.get()),
                                gsl_root_fsolver_x_upper(solver.get()), precision, 0) == GSL_SUCCESS)
       break;

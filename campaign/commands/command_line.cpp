@@ -17,6 +17,7 @@
 #include "campaign/base/version.hpp"
 #include "campaign/commands/documents.hpp"
 #include "campaign/commands/json_output.hpp"
+#include "campaign/commands/recompute.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -369,16 +370,33 @@ never writes the store.)"));
   return command;
 }
 
-CLI::App* add_verify(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("verify", "Check the store: SQLite, checkpoints, physics, completeness");
-  command->footer(examples("  campaign verify && echo sound"));
+CLI::App* add_verify(CLI::App& app, VerifyOptions& options) {
+  auto* command = app.add_subcommand(
+      "verify", "Check the store: SQLite, digests of rows, checkpoints, physics, completeness");
+  auto* repair =
+      command->add_flag("--repair", options.repair,
+                        "Compute again what is wrong, and put the rows right where they differ");
+  command
+      ->add_option("--recompute", options.recompute,
+                   "Compute finished jobs again and compare every bit: a job's number, all, or a "
+                   "part of them such as 5%")
+      ->type_name("JOB|all|N%")
+      ->check(CLI::Validator([](std::string& word) { return fault_of_choice(word); }, ""))
+      ->excludes(repair);
+  command->footer(examples(R"(  campaign verify && echo sound
+  campaign verify --recompute 12
+  campaign verify --recompute 5% --store dense.db
+  campaign verify --repair && campaign run
+
+Exit code 1: something is wrong. Each row has a digest since it was written, so that any bit that has
+flipped since is found. --recompute costs the CPU time of the jobs, and finds what was wrong when it
+was written; it changes nothing. --repair changes only what is wrong, and says what it changed.)"));
   return command;
 }
 
 CLI::App* add_retry(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("retry", "Reopen failed jobs and those with a damaged checkpoint");
+  auto* command = app.add_subcommand(
+      "retry", "Reopen failed jobs and those whose checkpoint or rows are damaged");
   command->footer(examples("  campaign retry && campaign run"));
   return command;
 }
@@ -697,6 +715,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   PlotOptions plotted;
   ExportCommand exported;
   CostRequest cost;
+  VerifyOptions verify;
   BackupCommand backup;
   SplitOptions split;
   MergeOptions merge;
@@ -715,7 +734,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   const CLI::App* plot_command = add_plot(app, plotted);
   const CLI::App* export_command = add_export(app, exported);
   const CLI::App* cost_command = add_cost(app, cost);
-  const CLI::App* verify_command = add_verify(app);
+  const CLI::App* verify_command = add_verify(app, verify);
   const CLI::App* retry_command = add_retry(app);
   const CLI::App* backup_command = add_backup(app, backup);
   const CLI::App* upgrade_command = add_upgrade(app);
@@ -752,7 +771,8 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   plan.json = run.json = status.json = split.json = merge.json = recall.json = line.json;
   if (line.json) query.format = theory.format = RowFormat::json;
   line.store = plan.store = run.store = split.store = merge.store = recall.store =
-      submit.cluster.store = report.store = status.store = store;
+      submit.cluster.store = report.store = status.store = verify.store = store;
+  verify.json = line.json;
   if (plan_command->parsed()) line.command = plan;
   if (run_command->parsed()) line.command = run;
   if (status_command->parsed()) line.command = status;
@@ -762,7 +782,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   if (plot_command->parsed()) line.command = plotted;
   if (export_command->parsed()) line.command = exported;
   if (cost_command->parsed()) line.command = cost;
-  if (verify_command->parsed()) line.command = VerifyCommand{};
+  if (verify_command->parsed()) line.command = verify;
   if (retry_command->parsed()) line.command = RetryCommand{};
   if (backup_command->parsed()) line.command = backup;
   if (upgrade_command->parsed()) line.command = UpgradeCommand{};

@@ -19,6 +19,7 @@
 #include "campaign/commands/status.hpp"
 #include "campaign/commands/submit.hpp"
 #include "campaign/commands/theory.hpp"
+#include "campaign/commands/verify.hpp"
 #include "campaign/figures/figures.hpp"
 
 namespace haff::campaign {
@@ -33,7 +34,6 @@ struct QueryCommand {
 struct ExportCommand {
   std::int64_t job_id = 0;
 };
-struct VerifyCommand {};
 struct RetryCommand {};
 struct BackupCommand {
   std::filesystem::path to;
@@ -46,7 +46,7 @@ struct WorkerCommand {  // what `run` starts; not for people
 };
 
 using Command = std::variant<PlanOptions, RunOptions, StatusOptions, ExplainCommand, QueryCommand,
-                             FigureRequest, PlotOptions, CostRequest, ExportCommand, VerifyCommand,
+                             FigureRequest, PlotOptions, CostRequest, ExportCommand, VerifyOptions,
                              RetryCommand, BackupCommand, UpgradeCommand, SplitOptions,
                              MergeOptions, RecallOptions, SubmitOptions, TaskOptions, TheoryOptions,
                              ReportOptions, WorkerCommand>;

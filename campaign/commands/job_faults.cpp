@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
+#include <set>
 
 #include "analysis/theory/cooling.hpp"
 #include "campaign/job/measurement.hpp"
@@ -110,13 +112,44 @@ void check_invariants(const Reader& store, const JobRow& row, Texts& faults) {
                                  seen->unresolved_collisions));
 }
 
-void check_state(const Reader& store, const JobRow& row, JobFaults& faults) {
+// Rows that are not as they were written are not looked at any further, but for samples.
+struct Parts {
+  std::set<schema::Part> wrong;
+
+  bool are_wrong(std::initializer_list<schema::Part> parts) const {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](schema::Part part) { return wrong.contains(part); });
+  }
+};
+
+Parts check_digests(const Reader& store, const JobRow& row, JobFaults& faults) {
+  const schema::DigestsOfJob digests = store.digests(row.job_id);
+  faults.lacks_digests = !digests.without.empty();
+  for (const schema::Part part : digests.wrong)
+    faults.rows.push_back(
+        part == schema::Part::jobs
+            ? std::string("its row of the table jobs is not as it was written (its digest)")
+            : fmt::format("its {} are not as they were written (their digest)", name(part)));
+  return {{digests.wrong.begin(), digests.wrong.end()}};
+}
+
+// Whether there is a state; throws as restore() does if it is damaged.
+bool is_restorable(const Reader& store, const JobRow& row) {
+  const auto checkpoint = store.checkpoint(row.job_id);
+  if (checkpoint) restore(*checkpoint, row.job);
+  return checkpoint.has_value();
+}
+
+void check_state(const Reader& store, const JobRow& row, const Parts& parts, JobFaults& faults) {
   const bool must_have_state =
       row.job.kind == schema::Kind::equilibration && row.status == schema::Status::done;
   if (row.starts_over) return;  // known, and to be computed again
   try {
-    const auto state = stored_state(store, row.job_id, row.job);
-    if (!state && must_have_state) faults.state = "done, but its state is gone";
+    // It is held against its samples, unless these are wrong.
+    const bool has_state = parts.are_wrong({schema::Part::samples})
+                               ? is_restorable(store, row)
+                               : stored_state(store, row.job_id, row.job).has_value();
+    if (!has_state && must_have_state) faults.state = "done, but its state is gone";
   } catch (const schema::Damage& damage) {
     faults.state = fmt::format("its checkpoint is damaged: {}", damage.what());
   } catch (const DamagedCheckpoint& damage) {
@@ -127,7 +160,8 @@ void check_state(const Reader& store, const JobRow& row, JobFaults& faults) {
 }
 
 // That they can be read is what is checked: as many values as their cells hold, finite points.
-void check_views(const Reader& store, const JobRow& row, Texts& faults) {
+void check_views(const Reader& store, const JobRow& row, const Parts& parts, Texts& faults) {
+  if (parts.are_wrong({schema::Part::profiles, schema::Part::fields})) return;
   try {
     for (const schema::FieldName& field : store.fields(row.job_id))
       store.field(row.job_id, field.name, field.tau);
@@ -138,13 +172,14 @@ void check_views(const Reader& store, const JobRow& row, Texts& faults) {
   }
 }
 
-void check_rows(const Reader& store, const JobRow& row, Texts& faults) {
+void check_rows(const Reader& store, const JobRow& row, const Parts& parts, Texts& faults) {
   try {
-    check_invariants(store, row, faults);
-    const std::vector<Sample> samples = store.samples(row.job_id);
+    if (!parts.are_wrong({schema::Part::invariants})) check_invariants(store, row, faults);
+    const std::vector<Sample> samples = store.samples_unchecked(row.job_id);
     check_order(samples, row, faults);
     if (row.job.kind == schema::Kind::equilibration) check_elastic(samples, row, faults);
-    if (row.status == schema::Status::done) check_complete(store, row, samples, faults);
+    if (row.status == schema::Status::done && !parts.are_wrong({schema::Part::results}))
+      check_complete(store, row, samples, faults);
   } catch (const schema::Damage& damage) {
     faults.emplace_back(damage.what());
   }
@@ -154,9 +189,10 @@ void check_rows(const Reader& store, const JobRow& row, Texts& faults) {
 
 JobFaults faults_of(const Reader& store, const JobRow& row) {
   JobFaults faults;
-  check_state(store, row, faults);
-  check_rows(store, row, faults.rows);
-  check_views(store, row, faults.rows);
+  const Parts parts = check_digests(store, row, faults);
+  check_state(store, row, parts, faults);
+  check_rows(store, row, parts, faults.rows);
+  check_views(store, row, parts, faults.rows);
   return faults;
 }
 

@@ -13,6 +13,7 @@ struct JobFaults {
   std::optional<std::string> state = {};  // why the job cannot go on from its state
   std::optional<std::string> newer = {};  // its state is sound, but of a newer program
   std::vector<std::string> rows = {};     // of samples, profiles, fields, results, invariants
+  bool lacks_digests = false;             // a program of an older version wrote some of its rows
 
   bool empty() const { return !state && !newer && rows.empty(); }
 };

@@ -70,7 +70,11 @@ struct CommandDispatcher {
     PrintableStream report;
     return cost(schema::Reader(line.store), request, report);
   }
-  int operator()(const VerifyCommand&) const { return verify(line.store, line.json); }
+  int operator()(const VerifyOptions& options) const {
+    if (!options.repair) return verify(options);
+    const HostLock lock(line.store, false);
+    return verify(options);
+  }
   int operator()(const RetryCommand&) const {
     const HostLock lock(line.store, false);
     return retry(line.store, line.json);

@@ -18,6 +18,8 @@
 #include "campaign/base/text_table.hpp"
 #include "campaign/commands/job_faults.hpp"
 #include "campaign/commands/json_output.hpp"
+#include "campaign/commands/recompute.hpp"
+#include "campaign/commands/repair.hpp"
 #include "schema/store.hpp"
 
 namespace haff::campaign {
@@ -34,12 +36,16 @@ struct Findings {
   std::vector<std::string> jobs;     // rows of the table jobs that this program did not write
   std::vector<std::string> states;   // damaged checkpoints
   std::vector<std::string> rows;     // results that cannot be
+  std::vector<std::string> tables;   // small tables that are not as they were written
   std::vector<std::string> newer;    // of a newer program
   std::vector<std::string> unknown;  // what the system would not let us read
 
-  bool lacks_log = false;  // a copy made while a run was on
+  bool lacks_log = false;            // a copy made while a run was on
+  std::int64_t without_digests = 0;  // jobs: no fault, but less is known of them
 
-  std::size_t faults() const { return file.size() + jobs.size() + states.size() + rows.size(); }
+  std::size_t faults() const {
+    return file.size() + jobs.size() + states.size() + rows.size() + tables.size();
+  }
   bool empty() const { return faults() + newer.size() + unknown.size() == 0 && !lacks_log; }
 };
 
@@ -56,6 +62,7 @@ void look_at(const Reader& store, const JobRow& row, Findings& found) {
   const std::string job = fmt::format("job {} ({}): ", row.job_id, describe(row.job));
   const JobFaults faults = faults_of(store, row);
   if (faults.state) found.states.push_back(job + *faults.state);
+  if (faults.lacks_digests) ++found.without_digests;
   if (faults.newer) found.newer.push_back(job + *faults.newer);
   for (const std::string& fault : faults.rows) found.rows.push_back(job + fault);
 }
@@ -74,6 +81,28 @@ void look_at_jobs(const Reader& store, Findings& found) {
     }
 }
 
+// The statuses are the program's own.
+void look_at_statuses(const Reader& store, Findings& found) {
+  auto rows = store.query("SELECT position, status, meaning FROM job_status ORDER BY position");
+  std::size_t k = 0;
+  bool is_ours = true;
+  while (const auto row = rows.next()) {
+    is_ours = is_ours && k < schema::statuses.size() &&
+              row->at(0) == schema::Value(static_cast<std::int64_t>(k)) &&
+              row->at(1) == schema::Value(std::string(schema::statuses[k].name)) &&
+              row->at(2) == schema::Value(std::string(schema::statuses[k].meaning));
+    ++k;
+  }
+  if (!is_ours || k != schema::statuses.size())
+    found.file.emplace_back("the table job_status is not as this program writes it");
+}
+
+void look_at_tables(const Reader& store, Findings& found) {
+  look_at_statuses(store, found);
+  for (const std::string& table : store.wrong_tables())
+    found.tables.push_back("the table " + table + " is not as it was written (its digest)");
+}
+
 std::string size_text(const Reader& store) {
   auto rows = store.query(
       "SELECT (SELECT count(*) FROM jobs), (SELECT count(*) FROM samples), "
@@ -88,7 +117,8 @@ void print(const std::vector<std::string>& lines) {
 }
 
 void print(const Findings& found, const std::filesystem::path& path) {
-  for (const auto* lines : {&found.file, &found.jobs, &found.states, &found.rows, &found.newer})
+  for (const auto* lines :
+       {&found.file, &found.tables, &found.jobs, &found.states, &found.rows, &found.newer})
     print(*lines);
   if (found.faults() > 0)
     say("{}: {} fault{} found\n", path.string(), found.faults(), found.faults() == 1 ? "" : "s");
@@ -106,6 +136,9 @@ void print(const Findings& found, const std::filesystem::path& path) {
         "again "
         "by: {1}\nA whole copy is made by: campaign backup FILE\n",
         path.string(), command_text("run", path));
+  if (found.file.empty() && !(found.jobs.empty() && found.rows.empty() && found.tables.empty()))
+    say("{} computes such jobs again, and puts right what differs\n",
+        command_text("verify --repair", path));
   if (!found.newer.empty())
     say("{}: a newer program wrote some of it; update campaign\n", path.string());
   for (const std::string& why : found.unknown)
@@ -115,14 +148,26 @@ void print(const Findings& found, const std::filesystem::path& path) {
 }
 
 ordered_json json_of(const Findings& found, const std::string& size) {
-  return {{"sound", found.empty()}, {"holds", size},        {"faults", found.faults()},
-          {"file", found.file},     {"jobs", found.jobs},   {"states", found.states},
-          {"rows", found.rows},     {"newer", found.newer}, {"not_checked", found.unknown}};
+  return {{"sound", found.empty()},
+          {"holds", size},
+          {"faults", found.faults()},
+          {"file", found.file},
+          {"tables", found.tables},
+          {"jobs", found.jobs},
+          {"states", found.states},
+          {"rows", found.rows},
+          {"newer", found.newer},
+          {"not_checked", found.unknown},
+          {"jobs_without_digests", found.without_digests}};
 }
 
 }  // namespace
 
-int verify(const std::filesystem::path& path, bool json) {
+int verify(const VerifyOptions& options) {
+  if (options.repair) return repair(options.store, options.json);
+  if (!options.recompute.empty())
+    return recompute_jobs(options.store, options.recompute, options.json);
+  const std::filesystem::path& path = options.store;
   if (!std::filesystem::exists(path)) static_cast<void>(Reader{path});  // throws: make it first
   Findings found;
   std::string size;
@@ -130,6 +175,7 @@ int verify(const std::filesystem::path& path, bool json) {
     const Reader store(path);
     found.lacks_log = store.lacks_log();
     found.file = store.faults();
+    look_at_tables(store, found);
     look_at_jobs(store, found);
     size = size_text(store);
   } catch (const schema::Damage& damage) {
@@ -139,12 +185,18 @@ int verify(const std::filesystem::path& path, bool json) {
   } catch (const schema::StoreError& error) {
     found.unknown.emplace_back(error.what());
   }
-  if (json) {
+  if (options.json) {
     print_json(json_of(found, size));
     return found.empty() ? exit_complete : exit_failed;
   }
   if (found.empty()) {
     say("{}: sound ({})\n", path.string(), size);
+    if (found.without_digests > 0)
+      say("{} of its jobs have no digest of all their rows, as a program of an older version wrote "
+          "them: a flipped bit there may go unseen. {} compares them with a second computation, {} "
+          "gives them one as they are\n",
+          count_text(found.without_digests), command_text("verify --recompute all", path),
+          command_text("verify --repair", path));
     return exit_complete;
   }
   print(found, path);

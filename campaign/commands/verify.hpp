@@ -1,11 +1,19 @@
-// `campaign verify`: whether the store is sound, from SQLite's pages to the physics in it.
+// `campaign verify`: is the store sound, and did the physics hold?
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace haff::campaign {
 
+struct VerifyOptions {
+  std::filesystem::path store;
+  bool repair = false;
+  bool json = false;
+  std::string recompute = {};  // "all", a job's number, "5%"; empty: nothing is computed again
+};
+
 // Prints what is wrong, if anything, and what helps, or the same as JSON; returns an ExitCode.
-int verify(const std::filesystem::path& store, bool json);
+int verify(const VerifyOptions& options);
 
 }  // namespace haff::campaign

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "campaign/base/command_text.hpp"
+#include "campaign/base/would_fail_again.hpp"
 #include "campaign/results/mixed_physics.hpp"
 #include "campaign/run/abandoned.hpp"
 
@@ -79,7 +80,11 @@ ExpectedAndSpent cost_of_done(const std::vector<schema::JobRow>& jobs) {
 std::vector<std::string> next_commands(const Overview& overview) {
   const schema::Summary& summary = overview.summary;
   std::vector<std::string> commands;
-  if (summary.jobs.at(Status::failed) > 0) commands.emplace_back("retry");
+  const bool may_succeed = std::ranges::any_of(overview.jobs, [](const schema::JobRow& row) {
+    return row.status == Status::failed &&
+           row.error.value_or("").find(would_fail_again) == std::string::npos;
+  });
+  if (may_succeed) commands.emplace_back("retry");
   const bool abandoned = std::ranges::any_of(overview.running, is_owner_dead);
   const bool nothing_runs = overview.running.empty() || abandoned;
   const bool short_of_target = std::ranges::any_of(

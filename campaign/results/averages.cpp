@@ -250,6 +250,8 @@ const MeanProfile* MeanSeries::profile(const std::string& name, double at) const
 }
 
 Averages read_averages(const schema::Reader& store) {
+  // The views know nothing of digests.
+  store.must_match_digests({schema::Part::samples, schema::Part::profiles, schema::Part::results});
   auto all = read_means(store, plain_gas);
   read_profiles(store, all);
   read_runs(store, plain_gas, all);

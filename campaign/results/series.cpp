@@ -25,6 +25,7 @@ std::string fields_at(const schema::Job& job) {
 
 // tau_c of the finished realizations that reached it, by series.
 std::map<std::string, std::vector<double>> reached_tau_c(const schema::Reader& store) {
+  store.must_match_digests({schema::Part::results});
   auto rows = store.query(
       "SELECT series, tau_c FROM results JOIN jobs USING (job_id) "
       "WHERE kind = 'cooling' AND status = 'done' AND tau_c IS NOT NULL ORDER BY series, seed");

@@ -14,6 +14,7 @@
 #include "campaign/base/job_text.hpp"
 #include "campaign/base/signals.hpp"
 #include "campaign/base/version.hpp"
+#include "campaign/base/would_fail_again.hpp"
 #include "campaign/job/attempt.hpp"
 #include "campaign/job/cooling.hpp"
 #include "campaign/job/equilibration.hpp"
@@ -79,7 +80,10 @@ std::optional<Failure> failure_of(Attempt& attempt, const Reporter& reporter) {
   } catch (const std::bad_alloc&) {
     why = "out of memory: run fewer workers";
   } catch (const std::invalid_argument& error) {  // a gas that cannot be, whenever it is tried
-    why = std::string(error.what()) + "; it would fail again in the same way";
+    why = fmt::format("{}; {}", error.what(), would_fail_again);
+    again = false;
+  } catch (const NotEquilibrated& error) {
+    why = fmt::format("{}; {}", error.what(), would_fail_again);
     again = false;
   } catch (const std::exception& error) {
     why = error.what();

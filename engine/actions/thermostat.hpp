@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 
 #include "engine/actions/action.hpp"
@@ -34,8 +35,11 @@ class Thermostat : public Action {
         d_(start.d),
         mixture_(mixture_in(start)),
         last_(start.time) {
-    if (const auto found = start.memory.find(key); found != start.memory.end())
-      last_ = found->second.at(0);
+    const auto found = start.memory.find(key);
+    if (found == start.memory.end()) return;
+    if (found->second.size() != 1)
+      throw std::invalid_argument("the state remembers no one moment of the last kick");
+    last_ = found->second.front();
   }
 
   std::int64_t next(std::int64_t collisions, std::size_t particles) const override {

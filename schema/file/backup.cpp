@@ -10,6 +10,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include "schema/store.hpp"
 
@@ -32,15 +33,37 @@ void copy(SQLite::Database& from, SQLite::Database& to) {
   }
 }
 
-// Their workers know nothing of the copy: in it nobody holds them.
-constexpr const char* give_back_running_jobs = R"(
-  UPDATE jobs SET
-    status = 'pending', owner_boot_id = NULL, owner_pid = NULL, owner_started = NULL,
-    renewed = NULL,
-    tau = coalesce((SELECT tau FROM checkpoints WHERE checkpoints.job_id = jobs.job_id), 0),
-    collisions =
-      coalesce((SELECT collisions FROM checkpoints WHERE checkpoints.job_id = jobs.job_id), 0)
-  WHERE status = 'running')";
+// Their workers know nothing of the copy: in it nobody holds them. A job whose row is damaged stays
+// as it is, and known as that. A copy of an older version has no digests.
+void give_back_running_jobs(SQLite::Database& copy) {
+  const bool has_digests = copy.tableExists("digests");
+  Digests digests(copy);
+  SQLite::Transaction transaction(copy, SQLite::TransactionBehavior::IMMEDIATE);
+  std::vector<std::int64_t> running;
+  SQLite::Statement jobs(copy, "SELECT job_id FROM jobs WHERE status = 'running'");
+  while (jobs.executeStep()) running.push_back(jobs.getColumn(0).getInt64());
+  if (has_digests) digests.begin();
+  SQLite::Statement give_back(copy, R"(
+    UPDATE jobs SET
+      status = 'pending', owner_boot_id = NULL, owner_pid = NULL, owner_started = NULL,
+      renewed = NULL,
+      tau = coalesce((SELECT tau FROM checkpoints WHERE checkpoints.job_id = jobs.job_id), 0),
+      collisions =
+        coalesce((SELECT collisions FROM checkpoints WHERE checkpoints.job_id = jobs.job_id), 0)
+    WHERE job_id = ?)");
+  for (const std::int64_t job_id : running) {
+    if (has_digests) try {
+        digests.must_match(job_id, Part::jobs);
+      } catch (const BadValue&) {
+        continue;
+      }
+    give_back.reset();
+    give_back.bind(1, job_id);
+    give_back.exec();
+  }
+  if (has_digests) digests.settle();
+  transaction.commit();
+}
 
 void must_be_sound(SQLite::Database& copy, const std::filesystem::path& store) {
   const std::string found = copy.execAndGet("PRAGMA integrity_check(1)").getString();
@@ -104,7 +127,7 @@ std::uintmax_t back_up(Database& database, const std::filesystem::path& to) {
     copied.exec("PRAGMA synchronous = FULL");
     copied.exec("PRAGMA journal_mode = DELETE");
     must_be_sound(copied, database.path());
-    copied.exec(give_back_running_jobs);
+    give_back_running_jobs(copied);
   } catch (const SQLite::Exception& error) {
     raise(to, error);
   }

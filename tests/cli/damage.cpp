@@ -122,10 +122,10 @@ TEST_CASE("damage: verify names a sample that is missing") {
 TEST_CASE("damage: verify names an energy that is not that of the checkpoint") {
   const Folder folder;
   run(folder, short_grid);
-  sabotage(folder,
-           "UPDATE samples SET temperature = temperature * 1.000001 WHERE tau = 30 "
-           "AND job_id = " +
-               job("cooling"));
+  change(folder,
+         "UPDATE samples SET temperature = temperature * 1.000001 WHERE tau = 30 "
+         "AND job_id = " +
+             job("cooling"));
   const Outcome outcome = campaign(folder, {"verify"});
   CHECK(outcome.exit_code == 1);
   CHECK(outcome.out.find("the sample at tau = 30") != std::string::npos);

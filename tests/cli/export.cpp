@@ -101,7 +101,7 @@ TEST_CASE("export: what there is not is bad input") {
   CHECK(campaign(folder, {"export"}).exit_code == 2);
   CHECK(campaign(folder, {"export", "two"}).exit_code == 2);
 
-  sabotage(folder, "DELETE FROM checkpoint_chunks; DELETE FROM checkpoints");
+  change(folder, "DELETE FROM checkpoint_chunks; DELETE FROM checkpoints");
   const Outcome early = campaign(folder, {"export", "2"});
   CHECK(early.exit_code == 2);
   CHECK(early.err.find("no state of job 2") != std::string::npos);

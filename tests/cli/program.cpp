@@ -168,4 +168,10 @@ void sabotage(const Folder& folder, const std::string& sql) {
   store.exec(sql);
 }
 
+void change(const Folder& folder, const std::string& sql) {
+  sabotage(folder, sql +
+                       "; DELETE FROM table_digests; DELETE FROM digests; "
+                       "INSERT INTO digests (job_id) SELECT job_id FROM jobs");
+}
+
 }  // namespace haff::tests

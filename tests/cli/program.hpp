@@ -70,4 +70,7 @@ double number(const Folder& folder, const std::string& sql);
 // Changes the store behind the program's back.
 void sabotage(const Folder& folder, const std::string& sql);
 
+// The same, as if a program without digests had written it: nothing says that it was changed.
+void change(const Folder& folder, const std::string& sql);
+
 }  // namespace haff::tests

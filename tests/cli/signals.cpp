@@ -93,7 +93,7 @@ TEST_CASE("signals: a short --max-time stores something, or says what it needs")
   CHECK(number(folder, "SELECT sum(cpu_seconds) FROM jobs") == 0);
 
   // Nothing is expected of these jobs, so they are begun, and then stored.
-  sabotage(folder, "UPDATE jobs SET expected_cpu_seconds = NULL");
+  change(folder, "UPDATE jobs SET expected_cpu_seconds = NULL");
   double before = 0;
   for (int i = 0; i < 3; ++i) {
     CHECK(campaign(folder, {"run", "--workers", "1", "--max-time", "0.3s"}).exit_code == 3);

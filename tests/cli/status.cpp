@@ -49,7 +49,7 @@ TEST_CASE("status: of a complete campaign: tau_c beside what is published") {
 TEST_CASE("status: of a failure: the reason, what it blocks, and retry") {
   const Folder folder;
   plan(folder);
-  sabotage(folder, "UPDATE jobs SET status = 'failed', error = 'for a test' WHERE job_id = 1");
+  change(folder, "UPDATE jobs SET status = 'failed', error = 'for a test' WHERE job_id = 1");
   const json now = status(folder);
   REQUIRE(now["failures"].size() == 1);
   CHECK(now["failures"][0]["error"] == "for a test");

@@ -124,8 +124,8 @@ TEST_CASE("terminal: no text of a store reaches the terminal as a command") {
   const std::string columns[] = {"error", "host", "code_version", "created", "started", "finished"};
   for (const std::string& column : columns) {
     CAPTURE(column);
-    sabotage(folder, "UPDATE jobs SET status = 'failed', " + column + " = " + sequence +
-                         " WHERE job_id = 2");
+    change(folder,
+           "UPDATE jobs SET status = 'failed', " + column + " = " + sequence + " WHERE job_id = 2");
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"status"},
           {"status", "--json"},
@@ -146,10 +146,10 @@ TEST_CASE("terminal: no text of a store reaches the terminal as a command") {
 TEST_CASE("terminal: host and error of a running job are shown without their commands") {
   const Folder folder;
   plan(folder, small_grid);
-  sabotage(folder,
-           std::string("UPDATE jobs SET status = 'running', owner_pid = 1, owner_boot_id = ") +
-               sequence + ", owner_started = 1, renewed = " + sequence + ", host = " + sequence +
-               ", error = " + sequence + " WHERE job_id = 1");
+  change(folder,
+         std::string("UPDATE jobs SET status = 'running', owner_pid = 1, owner_boot_id = ") +
+             sequence + ", owner_started = 1, renewed = " + sequence + ", host = " + sequence +
+             ", error = " + sequence + " WHERE job_id = 1");
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"status"}, {"status", "--json"}, {"run", "--max-time", "1s"}}) {
     OnTerminal program(folder, command, 50);
@@ -201,7 +201,8 @@ TEST_CASE("terminal: suggested commands can be pasted, from any folder and for a
     campaign plan "the grid's.json" --store "$store" --dry-run > shown && paste shown
     campaign plan "the grid's.json" --store "$store" > shown && paste shown
     campaign status --store "$store" > shown && paste shown
-    sqlite3 "$store" "UPDATE jobs SET status = 'failed', error = 'x' WHERE job_id = 4"
+    sqlite3 "$store" "UPDATE jobs SET status = 'failed', error = 'x' WHERE job_id = 4;
+                      UPDATE digests SET jobs = NULL"
     campaign status --store "$store" > shown && paste shown
     campaign retry --store "$store" > shown && paste shown
     campaign status --store "$store" > shown)");

@@ -1,0 +1,11 @@
+// What the error of a job says that would fail again in the same way, so that no command advises to
+// try it once more.
+#pragma once
+
+#include <string_view>
+
+namespace haff::campaign {
+
+inline constexpr std::string_view would_fail_again = "it would fail again in the same way";
+
+}  // namespace haff::campaign

@@ -1,0 +1,15 @@
+// `campaign verify --recompute JOB|all|N%`: finished jobs once more, compared in every bit.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace haff::campaign {
+
+// What is wrong with the word that says which jobs; empty if nothing is.
+std::string fault_of_choice(const std::string& word);
+
+// Says where they differ, or the same as JSON.
+int recompute_jobs(const std::filesystem::path& path, const std::string& which, bool json);
+
+}  // namespace haff::campaign

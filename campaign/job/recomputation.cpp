@@ -1,0 +1,105 @@
+#include "campaign/job/recomputation.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <variant>
+
+#include "campaign/base/version.hpp"
+#include "campaign/job/attempt.hpp"
+#include "campaign/job/cooling.hpp"
+#include "campaign/job/equilibration.hpp"
+#include "engine/simulation.hpp"
+#include "schema/checksum.hpp"
+
+namespace haff::campaign {
+namespace {
+
+// Reports of progress go nowhere.
+class Silence {
+ public:
+  Silence() : descriptor_(open("/dev/null", O_WRONLY | O_CLOEXEC)), reporter_(descriptor_) {}
+  ~Silence() { close(descriptor_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+  const Reporter& reporter() const { return reporter_; }
+
+ private:
+  int descriptor_;
+  Reporter reporter_;
+};
+
+const schema::Owner this_program{.host = "here", .boot_id = "now", .pid = getpid(), .started = 0};
+
+void must_be_our_physics(const schema::Reader& store, std::int64_t job_id) {
+  auto rows =
+      store.query(fmt::format("SELECT physics_version FROM jobs WHERE job_id = {}", job_id));
+  const auto row = rows.next().value();
+  const auto* version = std::get_if<std::int64_t>(row.data());
+  if (version && *version != engine::physics_version)
+    throw OtherPhysics(fmt::format("was computed with physics version {}, this program's is {}",
+                                   *version, engine::physics_version));
+}
+
+void run(schema::Store& store) {
+  const Silence silence;
+  const auto claim = store.claim(this_program, code_version());
+  if (!claim) throw std::logic_error("a job to be computed again cannot be claimed");
+  Attempt attempt(store, *claim, silence.reporter());
+  try {
+    if (claim->job.kind == schema::Kind::equilibration)
+      equilibrate(attempt);
+    else
+      cool(attempt);
+  } catch (const engine::Collapse& collapse) {
+    attempt.collapse(collapse.what());
+  }
+}
+
+std::string described(const std::optional<schema::Checkpoint>& state) {
+  if (!state) return "none";
+  return fmt::format("{} bytes with the checksum {:016x} at tau = {}", state->state.size(),
+                     schema::checksum(state->state), state->tau);
+}
+
+}  // namespace
+
+Recomputation recompute(const schema::Reader& store, const schema::JobRow& row) {
+  must_be_our_physics(store, row.job_id);
+  Recomputation again{.store = schema::Store::in_memory()};
+  if (row.equilibration_id) again.store.take_over(store, *row.equilibration_id);
+  again.store.add(std::vector<schema::Planned>{
+      {.job = row.job, .tau_max = row.tau_max, .checkpoint_every = row.checkpoint_every}});
+  run(again.store);
+  again.job_id = again.store.find(row.job).value();
+  return again;
+}
+
+std::vector<schema::Difference> differences(const schema::Reader& store, const schema::JobRow& row,
+                                            const Recomputation& again) {
+  using schema::Part;
+  std::vector<schema::Difference> all;
+  for (const Part part : {Part::samples, Part::profiles, Part::fields, Part::results}) {
+    const auto found = store.differences(row.job_id, part, again.store, again.job_id);
+    all.insert(all.end(), found.begin(), found.end());
+  }
+  if (row.job.kind == schema::Kind::equilibration) {
+    std::optional<schema::Checkpoint> here;
+    try {
+      here = store.checkpoint(row.job_id);
+    } catch (const schema::Damage&) {  // differs, whatever it is
+    }
+    const auto there = again.store.checkpoint(again.job_id);
+    if (!here || !there || here->state != there->state || here->tau != there->tau)
+      all.push_back({.part = Part::checkpoints,
+                     .row = {},
+                     .column = "state",
+                     .here = described(here),
+                     .there = described(there)});
+  }
+  return all;
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,36 @@
+// A finished job once more, from its parameters and the state it starts from. The same job gives
+// the same bits: what comes out differs from what is stored only if one of the two was disturbed.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "schema/store.hpp"
+
+namespace haff::campaign {
+
+// This program cannot compute the job's bits again: another physics version did.
+struct OtherPhysics : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// What came out, in a store of its own that is gone with it. A cooling job brings a copy of its
+// equilibration.
+struct Recomputation {
+  schema::Store store;
+  std::int64_t job_id = 0;  // in this store
+};
+
+// Computes a job that is done or collapsed again; nothing is written to `store`. Throws
+// OtherPhysics; schema::Damage or DamagedCheckpoint if the state it starts from cannot be used;
+// what the engine throws.
+Recomputation recompute(const schema::Reader& store, const schema::JobRow& row);
+
+// Every value of samples, profiles, fields and results, and of an equilibration the state it ended
+// in, that is not the same in all bits.
+std::vector<schema::Difference> differences(const schema::Reader& store, const schema::JobRow& row,
+                                            const Recomputation& again);
+
+}  // namespace haff::campaign

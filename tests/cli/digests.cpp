@@ -1,0 +1,137 @@
+// Rows that are not as they were written: found, refused, put right; and finished jobs once more.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "cli/program.hpp"
+
+using namespace haff::tests;
+
+namespace {
+
+constexpr const char* grid =
+    R"({"e": 0.8, "n": 0.2, "N": 300, "seeds": 2, "tau_max": 6, "equilibrate": 20,
+        "profiles_every": 3, "fields_at": [3],
+        "observables": ["temperature", "laguerre", "distribution", "structure", "fields"]})";
+
+void run(const Folder& folder, const char* text = grid) {
+  folder.write("grid.json", text);
+  REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
+  REQUIRE(campaign(folder, {"run"}).exit_code == 0);
+}
+
+bool holds(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
+
+const char* const harm[] = {
+    "UPDATE samples SET pressure = pressure * 1.0000001 WHERE job_id = 3 AND tau = 4",
+    "UPDATE profiles SET value = value + 1 WHERE job_id = 3 AND tau = 6 AND name = 'rho'",
+    "UPDATE fields SET data = zeroblob(length(data)) WHERE job_id = 3",
+    "DELETE FROM samples WHERE job_id = 3 AND tau = 6",
+    "UPDATE results SET tau_c = 3 WHERE job_id = 3",
+    "UPDATE invariants SET past_events = 7 WHERE job_id = 3",
+};
+
+}  // namespace
+
+TEST_CASE("digests: a changed row is found, named, not averaged, and put right") {
+  for (const char* sql : harm) {
+    CAPTURE(std::string(sql));
+    const Folder folder;
+    run(folder);
+    const std::string before = rows(folder);
+    sabotage(folder, sql);
+
+    const Outcome verified = campaign(folder, {"verify"});
+    CHECK(verified.exit_code == 1);
+    CHECK(holds(verified.out, "job 3 "));
+    CHECK(holds(verified.out, "not as they were written"));
+    CHECK(holds(verified.out, "verify --repair"));
+    if (std::string(sql).find("samples") != std::string::npos) {
+      const Outcome figures = campaign(folder, {"figures", "--out", "figures", "--only", "1"});
+      CHECK(figures.exit_code == 1);
+      CHECK(holds(figures.err, "job 3: its samples are not as they were written"));
+    }
+
+    const Outcome repaired = campaign(folder, {"verify", "--repair"});
+    CHECK(repaired.exit_code == 0);
+    CHECK(holds(repaired.out, "computed again"));
+    CHECK(rows(folder) == before);
+    CHECK(campaign(folder, {"verify"}).exit_code == 0);
+  }
+}
+
+TEST_CASE("digests: retry computes such a job anew") {
+  const Folder folder;
+  run(folder);
+  const std::string before = rows(folder);
+  sabotage(folder, harm[0]);
+  const Outcome retried = campaign(folder, {"retry"});
+  CHECK(retried.exit_code == 0);
+  CHECK(holds(retried.out, "job 3 "));
+  CHECK(holds(retried.out, "dropped"));
+  CHECK(campaign(folder, {"run"}).exit_code == 0);
+  CHECK(campaign(folder, {"verify"}).exit_code == 0);
+  CHECK(rows(folder) == before);
+}
+
+TEST_CASE("digests: finished jobs come out the same when computed again") {
+  const Folder folder;
+  run(folder);
+  const Outcome all = campaign(folder, {"verify", "--recompute", "all"});
+  CHECK(all.exit_code == 0);
+  CHECK(holds(all.out, "4 finished jobs computed again, every bit the same"));
+  const Outcome half = campaign(folder, {"verify", "--recompute", "50%"});
+  CHECK(holds(half.out, "2 finished jobs computed again"));
+  const Outcome one = campaign(folder, {"verify", "--recompute", "3"});
+  CHECK(holds(one.out, "1 finished job computed again"));
+
+  for (const char* word : {"0", "none", "101%", "-5%", "0%", "3x", ""}) {
+    CAPTURE(std::string(word));
+    CHECK(campaign(folder, {"verify", "--recompute", word}).exit_code == 2);
+  }
+  CHECK(campaign(folder, {"verify", "--recompute", "99"}).exit_code == 2);
+  CHECK(campaign(folder, {"verify", "--recompute", "3", "--repair"}).exit_code == 2);
+}
+
+TEST_CASE("digests: a value that was wrong when it was written is found by computing it again") {
+  const Folder folder;
+  run(folder);
+  const std::string before = rows(folder);
+  change(folder, "UPDATE samples SET a4 = a4 + 1e-9 WHERE job_id = 4 AND tau = 2");
+  CHECK(campaign(folder, {"verify"}).exit_code == 0);  // no digest says otherwise
+  const Outcome outcome = campaign(folder, {"verify", "--recompute", "all"});
+  CHECK(outcome.exit_code == 1);
+  CHECK(holds(outcome.out, "job 4 "));
+  CHECK(holds(outcome.out, "tau = 2: a4 is "));
+}
+
+TEST_CASE("digests: rows of an older program have none, and get one") {
+  const Folder folder;
+  run(folder);
+  change(folder, "SELECT 1");
+  const Outcome without = campaign(folder, {"verify"});
+  CHECK(without.exit_code == 0);
+  CHECK(holds(without.out, "4 of its jobs have no digest"));
+  CHECK(campaign(folder, {"verify", "--repair"}).exit_code == 0);
+  const Outcome with = campaign(folder, {"verify"});
+  CHECK(with.exit_code == 0);
+  CHECK_FALSE(holds(with.out, "digest"));
+}
+
+TEST_CASE("digests: a flipped bit of a job's parameters is turned back") {
+  const Folder folder;
+  folder.write("grid.json", grid);
+  REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
+  sabotage(folder, "UPDATE jobs SET tau_max = 3 WHERE job_id = 3");  // one bit from 6
+  const Outcome outcome = campaign(folder, {"run"});
+  CHECK(outcome.exit_code == 1);
+  CHECK(number(folder, "SELECT count(*) FROM samples WHERE job_id = 3") == 0);
+  const Outcome repaired = campaign(folder, {"verify", "--repair"});
+  CHECK(repaired.exit_code == 0);
+  CHECK(holds(repaired.out, "tau_max is 6 again, and was 3"));
+  CHECK(campaign(folder, {"run"}).exit_code == 0);
+  CHECK(campaign(folder, {"verify"}).exit_code == 0);
+  CHECK(number(folder, "SELECT max(tau) FROM samples WHERE job_id = 3") == 6);
+}
