@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <ctime>
 
 namespace haff::campaign {
@@ -9,22 +10,27 @@ namespace {
 
 volatile std::sig_atomic_t last = 0;
 volatile std::sig_atomic_t count = 0;
-std::atomic<std::time_t> first_at = 0;  // on the monotonic clock [s]; 0 before the first
-static_assert(std::atomic<std::time_t>::is_always_lock_free, "written by a signal handler");
+std::atomic<std::int64_t> first_at = 0;  // on the monotonic clock [ms]; 0 before the first
+static_assert(std::atomic<std::int64_t>::is_always_lock_free, "written by a signal handler");
 
-// Less than the coordinator's patience with a worker, which is killed after that. [s]
-constexpr std::time_t wait_after_stop = 2;
+// Less than the coordinator's patience with a worker, which is killed after that. [ms]
+constexpr std::int64_t wait_after_stop = 2000;
 
-std::time_t monotonic_seconds() {
+// A batch system signals every process of a task, and each passes it on to its children: what comes
+// so soon after the first signal is the same wish. [ms]
+constexpr std::int64_t same_wish = 700;
+
+std::int64_t monotonic_milliseconds() {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
-  return time.tv_sec;
+  return std::int64_t{time.tv_sec} * 1000 + time.tv_nsec / 1'000'000;
 }
 
 extern "C" void note(int signal) {
-  if (first_at == 0) first_at = monotonic_seconds();
+  const std::int64_t now = monotonic_milliseconds();
+  if (first_at == 0) first_at = now;
   last = signal;
-  count = count + 1;
+  if (count == 0 || now - first_at > same_wish) count = count + 1;
 }
 
 bool is_ignored(int signal) {
@@ -57,7 +63,7 @@ int stop_signals() {
 }
 
 bool may_wait_for_locks() {
-  return count == 0 || (count == 1 && monotonic_seconds() - first_at <= wait_after_stop);
+  return count == 0 || (count == 1 && monotonic_milliseconds() - first_at <= wait_after_stop);
 }
 
 }  // namespace haff::campaign

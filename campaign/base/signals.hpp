@@ -15,7 +15,8 @@ void note_stop_signals();
 // The signal that asked to stop, or 0.
 int stop_signal();
 
-// How often one came: the second means "at once".
+// How often one came: the second means "at once". One that comes within a second's part of the
+// first is that one, passed on by another process.
 int stop_signals();
 
 // Whether there is time to wait for another process to release the store: always before a stop

@@ -7,11 +7,14 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
 #include "campaign/base/command_text.hpp"
+#include "campaign/base/duration.hpp"
+#include "campaign/base/write_file.hpp"
 #include "campaign/cluster/subprocess.hpp"
 
 namespace haff::campaign {
@@ -26,15 +29,18 @@ constexpr double least_reserve = 30, most_reserve = 300;
 // Of a very short task no more than this is reserved.
 constexpr double most_reserved_share = 0.25;
 
-std::string this_program() {
-  return fs::read_symlink("/proc/self/exe").string();
-}
-
 // D-HH:MM:SS, as Slurm reads it.
 std::string slurm_time(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(seconds));
   return fmt::format("{}-{:02}:{:02}:{:02}", whole / 86400, whole / 3600 % 24, whole / 60 % 60,
                      whole % 60);
+}
+
+// As a user types it: 4h, 1h30m.
+std::string duration_word(double seconds) {
+  std::string word = duration_text(seconds);
+  std::erase(word, ' ');
+  return seconds_from_text(word) == seconds ? word : fmt::format("{:.0f}s", seconds);
 }
 
 std::vector<std::string> with_options(std::vector<std::string> words, const ClusterOptions& options,
@@ -57,9 +63,28 @@ std::string job_name(const ClusterOptions& options) {
 
 }  // namespace
 
+std::string this_program() {
+  return fs::read_symlink("/proc/self/exe").string();
+}
+
 double reserve(const ClusterOptions& options) {
   return std::min(std::clamp(reserved_share * options.seconds, least_reserve, most_reserve),
                   most_reserved_share * options.seconds);
+}
+
+std::string shell_line(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted_word(word);
+  return line;
+}
+
+std::string submit_line(const ClusterOptions& options) {
+  const std::string words =
+      fmt::format("submit --tasks {} --cpus {} --time {} --out {}", options.tasks, options.cpus,
+                  duration_word(options.seconds), shell_word(options.folder.string()));
+  const std::string rest =
+      options.sbatch_options.empty() ? "" : " -- " + shell_line(options.sbatch_options);
+  return command_text(words, options.store) + rest;
 }
 
 std::string tasks_script(const ClusterOptions& options, const Round& round) {
@@ -67,7 +92,7 @@ std::string tasks_script(const ClusterOptions& options, const Round& round) {
       R"(#!/bin/sh
 # Task k works on the shard in line k of the list.
 shard=$(sed -n "${{SLURM_ARRAY_TASK_ID}}p" {})
-exec {} task --workers {} --max-time {:.0f}s --put-back-every {:.0f}s -- "$shard"
+exec {} task --workers "${{SLURM_CPUS_PER_TASK:-{}}}" --max-time {:.0f}s --put-back-every {:.0f}s -- "$shard"
 )",
       shell_word(round_file(options.folder, round.number, ".shards").string()),
       shell_word(this_program()), options.cpus, options.seconds - reserve(options),
@@ -79,9 +104,8 @@ std::string merge_script(const ClusterOptions& options, const Round& round) {
       "submit --store {} --out {} --tasks {} --cpus {} --time {:.0f}s --put-back-every {:.0f}s "
       "--rounds {} --round {}",
       shell_word(options.store.string()), shell_word(options.folder.string()), options.tasks,
-      options.cpus, options.seconds, options.put_back_every, options.rounds, round.number + 1);
-  if (!options.sbatch_options.empty()) words += " --";
-  for (const std::string& option : options.sbatch_options) words += ' ' + quoted_word(option);
+      options.cpus, options.seconds, options.put_back_every, options.rounds - 1, round.number + 1);
+  if (!options.sbatch_options.empty()) words += " -- " + shell_line(options.sbatch_options);
   return fmt::format(
       "#!/bin/sh\n# All tasks of round {} have ended: their shards come home, and what is left is "
       "submitted again.\nexec {} {}\n",
@@ -120,10 +144,9 @@ void write_record(const fs::path& folder, const Round& round) {
                             {"merge_job", round.merge_job},
                             {"shards", shards}};
   const fs::path path = round_file(folder, round.number, ".json");
-  std::ofstream file(path);
-  file << record.dump(2) << '\n';
-  file.flush();
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written; is the disk full?");
+  const fs::path part = path.string() + ".part";
+  write_file(part, record.dump(2) + '\n');
+  fs::rename(part, path);
 }
 
 std::vector<Round> read_records(const fs::path& folder) {
@@ -148,6 +171,17 @@ std::vector<Round> read_records(const fs::path& folder) {
   }
   std::ranges::sort(rounds, {}, &Round::number);
   return rounds;
+}
+
+std::set<std::string> jobs_in_queue() {
+  const auto answer = ask({"squeue", "--noheader", "--me", "--format=%F"});
+  if (!answer || answer->exit_code != 0)
+    throw std::runtime_error(
+        "squeue does not say what has become of tasks submitted before; give the same command "
+        "again "
+        "when it answers");
+  std::istringstream lines(answer->out);
+  return {std::istream_iterator<std::string>(lines), {}};
 }
 
 std::map<fs::path, std::string> slurm_states(const std::vector<Round>& rounds) {

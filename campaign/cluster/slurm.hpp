@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct ClusterOptions {
   int cpus = 1;                             // of a task: its workers
   double seconds = 0;                       // wall clock of a task
   double put_back_every = 0;                // how often a task saves its shard [s]
-  int rounds = 1;                           // at most
+  int rounds = 1;                           // at most, the one to be submitted among them
   std::vector<std::string> sbatch_options;  // what else sbatch is given
 };
 
@@ -33,6 +34,15 @@ struct Round {
 
 // How long before its end a task stops computing, to store its work and put its shard back. [s]
 double reserve(const ClusterOptions& options);
+
+// The path of this program, which a task on another machine starts as well.
+std::string this_program();
+
+// The words as a shell must be given them.
+std::string shell_line(const std::vector<std::string>& words);
+
+// What the user types to submit with these options.
+std::string submit_line(const ClusterOptions& options);
 
 // The scripts of the tasks and of the job after them, as they are given to sbatch.
 std::string tasks_script(const ClusterOptions& options, const Round& round);
@@ -49,6 +59,10 @@ std::filesystem::path round_file(const std::filesystem::path& folder, int round,
 // Keeps and finds the records of rounds. A record that cannot be read is left out.
 void write_record(const std::filesystem::path& folder, const Round& round);
 std::vector<Round> read_records(const std::filesystem::path& folder);
+
+// The numbers of this user's jobs that are pending, running or just ending. Throws
+// std::runtime_error if squeue does not answer.
+std::set<std::string> jobs_in_queue();
 
 // What squeue says of each task of the rounds, by shard: "RUNNING on n1 for 1:23:45". Empty where
 // there is no squeue, or the tasks have ended.

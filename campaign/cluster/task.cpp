@@ -88,7 +88,11 @@ class Claimed {
   Claimed(const Claimed&) = delete;
   Claimed& operator=(const Claimed&) = delete;
 
+  // The file is gone when another task has ended meanwhile, or a merge. What cannot be looked at
+  // just now says nothing.
   bool still() const {
+    std::error_code unknown;
+    if (!fs::exists(file_, unknown)) return static_cast<bool>(unknown);
     std::ifstream file(file_);
     std::string line;
     std::getline(file, line);
@@ -107,20 +111,34 @@ void flush_to_disk(const fs::path& path) {
   close(file);
 }
 
-// The shard as it is at this moment, in place of the one in the user's folder.
-void put_back(const fs::path& working, const fs::path& shard) {
+// The shard as it is at this moment, in place of the one in the user's folder; unless another task
+// has claimed that one meanwhile. Whether it was put back.
+bool put_back(const fs::path& working, const fs::path& shard, const Claimed& claimed) {
   const fs::path part = fmt::format("{}.part-{}", shard.string(), getpid());
   std::error_code ignored;
   fs::remove(part, ignored);
   try {
     schema::Reader(working).back_up(part);
     flush_to_disk(part);
-    fs::rename(part, shard);
+    const bool is_still_ours = claimed.still();
+    if (is_still_ours) fs::rename(part, shard);
+    fs::remove(part, ignored);
     flush_to_disk(shard.parent_path());
+    return is_still_ours;
   } catch (...) {
     fs::remove(part, ignored);
     throw;
   }
+}
+
+// The shard, on the disk of the node.
+void copy_to_node(const fs::path& shard, const fs::path& working) {
+  std::error_code error;
+  fs::copy_file(shard, working, error);
+  if (error)
+    throw std::runtime_error(fmt::format(
+        "{}: cannot be copied to {} ({}); set TMPDIR to a folder with room on a disk of the node",
+        shard.string(), working.parent_path().string(), error.message()));
 }
 
 // `campaign run` on the copy: the same program, as a child that dies with this process.
@@ -157,18 +175,17 @@ class Task {
         working_(scratch_.path() / "shard.db") {}
 
   int work() {
-    fs::copy_file(shard_, working_);
+    copy_to_node(shard_, working_);
     spdlog::info("{} is worked on in {}", shard_.string(), scratch_.path().string());
     const int exit_code = run();
     try {
-      if (!may_put_back()) return exit_code;
-      put_back(working_, shard_);
+      if (is_lost()) return exit_code;
+      if (put_back(working_, shard_, claimed_)) spdlog::info("{} is put back", shard_.string());
     } catch (const std::exception&) {
       scratch_.keep();
       spdlog::error("what was computed is in {}, until the node clears it", working_.string());
       throw;
     }
-    spdlog::info("{} is put back", shard_.string());
     return exit_code;
   }
 
@@ -195,21 +212,25 @@ class Task {
 
   // A copy that fails costs nothing yet: the next one may succeed.
   void put_back_meanwhile(pid_t run) {
-    if (!may_put_back()) {
+    if (is_lost()) {
       kill(run, SIGTERM);
       return;
     }
     try {
-      put_back(working_, shard_);
+      put_back(working_, shard_, claimed_);
     } catch (const std::exception& error) {
       spdlog::warn("{} could not be put back: {}", shard_.string(), error.what());
     }
   }
 
-  bool may_put_back() const {
-    if (claimed_.still()) return true;
-    spdlog::warn("{}: another task has begun to work on it; this one stops", shard_.string());
-    return false;
+  // Whether another task has the shard now.
+  bool is_lost() const {
+    if (claimed_.still()) return false;
+    spdlog::warn(
+        "{}: another task has begun to work on it; this one stops, and what it did since "
+        "it last put the shard back is lost",
+        shard_.string());
+    return true;
   }
 
   const TaskOptions& options_;

@@ -503,7 +503,7 @@ CLI::App* add_submit(CLI::App& app, SubmitOptions& options) {
       ->type_name("C")
       ->capture_default_str();
   add_duration(command, "--time", cluster.seconds, "Time limit of a task: 45m, 4h, 1d")->required();
-  command->add_option("--rounds", cluster.rounds, "How often what is left is submitted, at most")
+  command->add_option("--rounds", cluster.rounds, "Rounds at most: what is left is submitted again")
       ->check(CLI::Range(0, most_rounds))
       ->type_name("R")
       ->capture_default_str();

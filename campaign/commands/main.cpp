@@ -44,55 +44,64 @@ struct CommandDispatcher {
   const CommandLine& line;
 
   int operator()(const PlanOptions& options) const {
-    const HostLock lock(line.store, false);
+    const HostLock lock(line.store, Use::write);
     return plan(options);
   }
   int operator()(const RunOptions& options) const {
-    const HostLock lock(line.store, true);
+    const HostLock lock(line.store, Use::run);
     return run(options);
   }
-  int operator()(const StatusOptions& options) const { return status(options); }
+  int operator()(const StatusOptions& options) const {
+    const HostLock lock(line.store, Use::read);
+    return status(options);
+  }
   int operator()(const ExplainCommand& command) const {
+    const HostLock lock(line.store, Use::read);
     return explain_job(line.store, command.job_id, line.json);
   }
   int operator()(const QueryCommand& command) const {
+    const HostLock lock(line.store, Use::read);
     return query(line.store, command.sql, command.format);
   }
   int operator()(const FigureRequest& request) const {
+    const HostLock lock(line.store, Use::read);
     PrintableStream report;
     return draw_figures(schema::Reader(line.store), request, report);
   }
   int operator()(const PlotOptions& options) const { return plot(line.store, options); }
   int operator()(const ExportCommand& command) const {
+    const HostLock lock(line.store, Use::read);
     return export_state(line.store, command.job_id, std::cout);
   }
   int operator()(const CostRequest& request) const {
+    const HostLock lock(line.store, Use::read);
     PrintableStream report;
     return cost(schema::Reader(line.store), request, report);
   }
   int operator()(const VerifyOptions& options) const {
-    if (!options.repair) return verify(options);
-    const HostLock lock(line.store, false);
+    const HostLock lock(line.store, options.repair ? Use::write : Use::read);
     return verify(options);
   }
   int operator()(const RetryCommand&) const {
-    const HostLock lock(line.store, false);
+    const HostLock lock(line.store, Use::write);
     return retry(line.store, line.json);
   }
   int operator()(const SplitOptions& options) const {
-    const HostLock lock(line.store, false);
+    const HostLock lock(line.store, Use::write);
     return split(options);
   }
   int operator()(const MergeOptions& options) const {
-    const HostLock lock(line.store, false);
+    const HostLock lock(line.store, Use::write);
     return merge(options);
   }
   int operator()(const RecallOptions& options) const {
-    const HostLock lock(line.store, false);
+    const HostLock lock(line.store, Use::write);
     return recall(options);
   }
   int operator()(const SubmitOptions& options) const {
-    const HostLock lock(line.store, false);
+    const HostLock lock(
+        line.store, Use::write,
+        options.round == 0 ? HostLock::usual_patience : HostLock::unattended_patience);
     return submit(options);
   }
   int operator()(const TaskOptions& options) const { return task(options); }
@@ -102,7 +111,10 @@ struct CommandDispatcher {
     const HostLock lock(line.store, false);
     return upgrade(line.store);
   }
-  int operator()(const ReportOptions& options) const { return report(options); }
+  int operator()(const ReportOptions& options) const {
+    const HostLock lock(line.store, Use::read);
+    return report(options);
+  }
   int operator()(const WorkerCommand& command) const {
     std::optional<Deadline> deadline;
     if (command.until) deadline = Deadline(Deadline::duration(*command.until));

@@ -1,11 +1,11 @@
 #include "campaign/commands/submit.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <fstream>
-#include <set>
+#include <chrono>
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "campaign/accuracy/targets.hpp"
@@ -16,6 +16,7 @@
 #include "campaign/base/output.hpp"
 #include "campaign/cluster/merge.hpp"
 #include "campaign/cluster/split.hpp"
+#include "campaign/cluster/submission.hpp"
 #include "campaign/cluster/subprocess.hpp"
 #include "campaign/commands/status.hpp"
 #include "campaign/run/abandoned.hpp"
@@ -24,185 +25,206 @@ namespace haff::campaign {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+// How long sbatch may refuse a round that the job after another submits, where nobody could try
+// again.
+constexpr std::chrono::seconds unattended_patience = 10min;
+
+std::chrono::seconds patience(const SubmitOptions& options) {
+  return options.round == 0 ? 0s : unattended_patience;
+}
 
 // ---- what came home ---------------------------------------------------------------------------
 
-// The shards of earlier rounds that are still out.
-std::vector<schema::Shard> shards_out(const schema::Store& store, const fs::path& folder) {
-  std::set<fs::path> submitted;
-  for (const Round& round : read_records(folder))
-    submitted.insert(round.shards.begin(), round.shards.end());
-  auto shards = store.shards();
-  std::erase_if(shards, [&](const schema::Shard& shard) {
-    return shard.returned || !submitted.contains(shard.path);
-  });
-  return shards;
+void remove_file(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove(path, ignored);
 }
 
 // Merges one shard and removes its file, which then holds nothing that the store does not. Whether
-// it brought anything.
+// it brought anything. What goes wrong with the store itself, or with the disk, is not the shard's
+// fault: it stays out, and can come home later.
 bool bring_home(schema::Store& store, const schema::Shard& shard) try {
   const MergeOutcome outcome = merge(store, shard.path);
   store.recall(shard.name);
-  std::error_code ignored;
-  fs::remove(shard.path, ignored);
+  remove_file(shard.path);
+  remove_file(shard.path.string() + ".task");  // a task that Slurm has lost sight of stops then
   say("{}: {} of {} jobs went on, {} new rows\n", shard.name, count_text(outcome.advanced),
       count_text(outcome.jobs), count_text(outcome.rows));
   return outcome.rows > 0 || outcome.advanced > 0;
+} catch (const schema::Unavailable&) {
+  throw;
+} catch (const schema::Locked&) {
+  throw;
 } catch (const schema::StoreError& error) {
-  complain("campaign: {}; its jobs are computed again\n", error.what());
+  complain("campaign: {}; what it has not sent home is computed again\n", error.what());
   store.recall(shard.name);
   return false;
 }
 
+// ---- rounds submitted before ------------------------------------------------------------------
+
+[[noreturn]] void refuse(const OpenRound& round, const ClusterOptions& options) {
+  throw std::runtime_error(fmt::format(
+      "round {} is at work, as Slurm job {}, and job {} will merge it and go on; see: {}. To stop "
+      "it: scancel {} {}",
+      round.round.number, round.round.tasks_job, round.round.merge_job,
+      command_text("status", options.store), round.round.merge_job, round.round.tasks_job));
+}
+
+// What became of the rounds before. Returns an ExitCode if one is at work, and there is nothing to
+// do now.
+std::optional<int> look_after_rounds(schema::Store& store, const SubmitOptions& options) {
+  const ClusterOptions& cluster = options.cluster;
+  const bool is_user = options.round == 0;
+  const auto ended = is_user ? std::nullopt : std::optional(options.round - 1);
+  bool has_tried = false, has_brought = false;
+  for (OpenRound& open : open_rounds(store, cluster.folder, ended)) {
+    if (open.has_tasks && !open.has_merge) {
+      enqueue_merge(cluster, open.round, patience(options));
+      say("Round {} is at work, as Slurm job {}, but the job that is to merge it was gone: it is "
+          "submitted again, as job {}.\n",
+          open.round.number, open.round.tasks_job, open.round.merge_job);
+      return exit_complete;
+    }
+    if (open.has_tasks || open.has_merge) {
+      if (is_user) refuse(open, cluster);
+      return exit_complete;
+    }
+    for (const schema::Shard& shard : open.shards) has_brought |= bring_home(store, shard);
+    has_tried |= !open.round.tasks_job.empty();
+  }
+  if (!is_user && has_tried && !has_brought)
+    throw std::runtime_error(
+        fmt::format("no task has brought anything home, so none is submitted again; see the logs "
+                    "in {}, and then: {}",
+                    cluster.folder.string(), submit_line(cluster)));
+  return std::nullopt;
+}
+
 // ---- what is submitted ------------------------------------------------------------------------
 
-void write_file(const fs::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.flush();
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written; is the disk full?");
+int next_number(const fs::path& folder) {
+  const auto records = read_records(folder);
+  return records.empty() ? 1 : records.back().number + 1;
 }
 
-std::string shell_line(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted_word(word);
-  return line;
-}
-
-// The number that sbatch gives a job: "123", or "123;cluster".
-std::string submitted(const std::vector<std::string>& words) {
-  const auto answer = ask(words);
-  if (!answer || answer->exit_code != 0)
-    throw std::runtime_error("sbatch refused this: " + shell_line(words));
-  return answer->out.substr(0, answer->out.find_first_of(";\n"));
-}
-
-void print_dry_run(const ClusterOptions& options, const Round& round) {
+int dry_run(const ClusterOptions& options) {
+  const schema::Reader store(options.store);
+  Round round{
+      .number = next_number(options.folder), .shards = {}, .tasks_job = {}, .merge_job = {}};
+  round.shards.resize(divide(store.jobs(), options.tasks).size());
+  if (round.shards.empty()) {
+    say("No job is pending: there is nothing to submit.\n");
+    return exit_complete;
+  }
   say("# {}\n{}\n# {}\n{}\n{}\n{}\n",
       round_file(options.folder, round.number, ".tasks.sh").string(), tasks_script(options, round),
       round_file(options.folder, round.number, ".merge.sh").string(), merge_script(options, round),
       shell_line(tasks_command(options, round)), shell_line(merge_command(options, round)));
   say("Nothing was written or submitted.\n");
-}
-
-// Submits the tasks and the job after them. If either is refused, nothing stays in the queue.
-void enqueue(const ClusterOptions& options, Round& round) {
-  std::string list;
-  for (const fs::path& shard : round.shards) list += shard.string() + '\n';
-  write_file(round_file(options.folder, round.number, ".shards"), list);
-  write_file(round_file(options.folder, round.number, ".tasks.sh"), tasks_script(options, round));
-  write_file(round_file(options.folder, round.number, ".merge.sh"), merge_script(options, round));
-  write_record(options.folder, round);
-  round.tasks_job = submitted(tasks_command(options, round));
-  try {
-    write_record(options.folder, round);
-    round.merge_job = submitted(merge_command(options, round));
-  } catch (...) {
-    ask({"scancel", round.tasks_job});
-    throw;
-  }
-  write_record(options.folder, round);
-}
-
-int submit_round(schema::Store& store, const ClusterOptions& options, int number) {
-  const auto shards = split(store, options.tasks, options.folder);
-  Round round{.number = number, .shards = {}, .tasks_job = {}, .merge_job = {}};
-  double makespan = 0;
-  for (const WrittenShard& shard : shards) {
-    round.shards.push_back(shard.path);
-    makespan = std::max(makespan, shard.share.makespan(options.cpus));
-  }
-  try {
-    enqueue(options, round);
-  } catch (...) {
-    for (const WrittenShard& shard : shards) {
-      store.recall(shard.name);
-      std::error_code ignored;
-      fs::remove(shard.path, ignored);
-    }
-    throw;
-  }
-  say("Round {}: {} task{} as Slurm job {}, merged by job {}. Expected: {} of computing for the "
-      "longest task.\nTo stop: scancel {} {}; what was computed comes home with: {}\n",
-      number, round.shards.size(), round.shards.size() == 1 ? "" : "s", round.tasks_job,
-      round.merge_job, duration_text(makespan), round.merge_job, round.tasks_job,
-      command_text("merge " + shell_word((options.folder / "").string()) + "shard-*.db",
-                   options.store));
   return exit_complete;
 }
 
-// With the names as the user gave them.
+// How many rounds a task of this length takes, as far as is known.
+std::string expected_rounds(const ClusterOptions& options, double makespan) {
+  const double rounds = std::ceil(makespan / (options.seconds - reserve(options)));
+  if (rounds <= 1) return "";
+  return fmt::format(" That takes some {:.0f} rounds{}.", rounds,
+                     rounds > options.rounds
+                         ? fmt::format(", more than the {} that --rounds allows", options.rounds)
+                         : "");
+}
+
+int submit_round(schema::Store& store, const SubmitOptions& options, int number) {
+  const ClusterOptions& cluster = options.cluster;
+  Round round{.number = number, .shards = {}, .tasks_job = {}, .merge_job = {}};
+  // What is lent must be on record before, or nobody would know to whom.
+  for (const WrittenShard& shard : planned_shards(store, cluster.tasks, cluster.folder))
+    round.shards.push_back(shard.path);
+  write_record(cluster.folder, round);
+  double makespan = 0;
+  try {
+    const auto shards = split(store, cluster.tasks, cluster.folder);
+    round.shards.clear();
+    for (const WrittenShard& shard : shards) {
+      round.shards.push_back(shard.path);
+      makespan = std::max(makespan, shard.share.makespan(cluster.cpus));
+    }
+    enqueue(cluster, round, patience(options));
+  } catch (...) {
+    for (const schema::Shard& shard : store.shards())
+      if (std::ranges::find(round.shards, shard.path) != round.shards.end()) {
+        store.recall(shard.name);
+        remove_file(shard.path);
+      }
+    remove_file(round_file(cluster.folder, number, ".json"));
+    throw;
+  }
+  say("Round {}: {} task{} as Slurm job {}, merged by job {}. Expected: {} of computing for the "
+      "longest task.{}\nTo stop: scancel {} {}; later, to bring home what was computed and go on: "
+      "{}\n",
+      number, round.shards.size(), round.shards.size() == 1 ? "" : "s", round.tasks_job,
+      round.merge_job, duration_text(makespan), expected_rounds(cluster, makespan), round.merge_job,
+      round.tasks_job, submit_line(cluster));
+  return exit_complete;
+}
+
 int explain_other_schedulers(const ClusterOptions& options) {
   const std::string folder = shell_word(options.folder.string());
+  const std::string all = shell_word((fs::absolute(options.folder) / "").string()) + "shard-*.db";
+  const std::string task = fmt::format("task --workers {}", options.cpus);
+  const std::string run_task = shell_word(this_program()) + ' ' + task;
+  const std::string of_pbs =
+      fmt::format(R"x({} "$(ls {} | sed -n "${{PBS_ARRAY_INDEX}}p")")x", run_task, all);
+  const std::vector<std::string> of_condor{
+      "%s\\n", "executable = " + this_program(), "arguments = " + task + " $(shard)",
+      fmt::format("request_cpus = {}", options.cpus),
+      "queue shard matching files " + (fs::absolute(options.folder) / "shard-*.db").string()};
   complain(
       "campaign: there is no sbatch here, so nothing was submitted. Under another scheduler:\n"
-      "  {}\n"
+      "  {0}\n"
       "then give each shard to a task, by one of\n"
-      "  GNU parallel  parallel -j {} campaign task --workers {} {{}} ::: {}/shard-*.db\n"
-      "  PBS           qsub -J 1-{} -l ncpus={} -- /bin/sh -c 'campaign task --workers {} "
-      "{}/shard-$(printf %03d $PBS_ARRAY_INDEX).db'\n"
-      "  HTCondor      executable = campaign; arguments = task --workers {} $(shard); "
-      "request_cpus = {}; queue shard matching files {}/shard-*.db\n"
+      "  GNU parallel  parallel -j {1} {2} {{}} ::: {3}\n"
+      "  PBS           echo {4} | qsub -J 1-{1} -l select=1:ncpus={5}\n"
+      "  HTCondor      printf {6} | condor_submit\n"
       "and bring home what they computed, as often as you like:\n"
-      "  {}\n",
+      "  {7}\n",
       command_text(fmt::format("split --into {} --out {}", options.tasks, folder), options.store),
-      options.tasks, options.cpus, folder, options.tasks, options.cpus, options.cpus, folder,
-      options.cpus, options.cpus, folder,
+      options.tasks, run_task, all, quoted_word(of_pbs), options.cpus, shell_line(of_condor),
       command_text("merge " + folder + "/shard-*.db", options.store));
   return exit_failed;
 }
 
 }  // namespace
 
-int submit(const SubmitOptions& options) {
-  if (!options.dry_run && !find_program("sbatch")) return explain_other_schedulers(options.cluster);
-  ClusterOptions cluster = options.cluster;
+int submit(const SubmitOptions& given) {
+  if (!given.dry_run && !find_program("sbatch")) return explain_other_schedulers(given.cluster);
+  SubmitOptions options = given;
+  ClusterOptions& cluster = options.cluster;
   cluster.store = fs::absolute(cluster.store);
-  cluster.folder = fs::absolute(cluster.folder);
+  cluster.folder = fs::absolute(cluster.folder).lexically_normal();
+  if (options.dry_run) return dry_run(cluster);
+
   schema::Store store = schema::Store::open(cluster.store);
+  const SubmissionLock lock(cluster.folder);
   take_back_from_the_dead(store);
-  const auto out = shards_out(store, cluster.folder);
-  if (options.round == 0 && !out.empty() && !options.dry_run)
-    throw std::runtime_error(fmt::format(
-        "{} is out with {} job{}, submitted before; wait for its task ({}), or take its jobs back: "
-        "{}",
-        out.front().name, out.front().unfinished, out.front().unfinished == 1 ? "" : "s",
-        command_text("status", cluster.store),
-        command_text("recall " + out.front().name, cluster.store)));
-  bool has_brought = false;
-  if (options.round > 0)
-    for (const schema::Shard& shard : out) has_brought |= bring_home(store, shard);
-  if (options.round > 0 || !options.dry_run) {
-    keep_predictions(store);
-    add_realizations(store, std::nullopt);
-  }
+  if (const auto exit_code = look_after_rounds(store, options)) return *exit_code;
+  keep_predictions(store);
+  add_realizations(store, std::nullopt);
 
   const schema::Summary summary = store.summary();
-  const bool is_complete = summary.claimable + summary.waiting == 0;
-  const bool has_failed = summary.jobs.at(schema::Status::failed) > 0;
-  if (is_complete) {
+  if (summary.claimable + summary.waiting == 0) {
     print_outcome(store);
-    return has_failed ? exit_failed : exit_complete;
+    return summary.jobs.at(schema::Status::failed) > 0 ? exit_failed : exit_complete;
   }
-  if (options.round > 0 && !has_brought)
-    throw std::runtime_error(
-        "no task has brought anything home, so none is submitted again; see the logs in " +
-        cluster.folder.string());
   if (cluster.rounds == 0) {
     say("Work is left after the last round that --rounds allows.\nNext: {}\n",
-        command_text("submit", cluster.store));
+        submit_line(cluster));
     return exit_out_of_time;
   }
-  const auto records = read_records(cluster.folder);
-  const int last = records.empty() ? 0 : records.back().number;
-  const int number = std::max(options.round, last + 1);
-  if (!options.dry_run) return submit_round(store, cluster, number);
-
-  Round round{.number = number, .shards = {}, .tasks_job = {}, .merge_job = {}};
-  round.shards.resize(divide(store.jobs(), cluster.tasks).size());
-  print_dry_run(cluster, round);
-  return exit_complete;
+  return submit_round(store, options, next_number(cluster.folder));
 }
 
 int task(const TaskOptions& options) {

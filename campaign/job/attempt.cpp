@@ -68,6 +68,7 @@ void Attempt::begin(const engine::State& state) {
   views_ = {};
   gas_.emplace(model_of(job()), state, engine::SearchBackend::simd,
                engine::Threads{.count = threads_});
+  if (gas_->collisions() > 0) log(fmt::format("goes on from tau = {:.6g}", tau()));
   speed_from_ = gas_->collisions();
   speed_since_ = renewed_ = Clock::now();
   report_progress();
@@ -109,6 +110,7 @@ bool Attempt::may_go_on_to_synchronization() const {
 
 Ending Attempt::leave() {
   store_.release(claim_.lease);
+  log(fmt::format("is left at tau = {:.6g}", store_.stored_tau(claim_.lease.job_id)));
   return Ending::left;
 }
 
@@ -128,6 +130,12 @@ Ending Attempt::collapse(const std::string& what) {
 std::string Attempt::place() const {
   if (!gas_) return fmt::format("seed {}, before the first collision", job().seed);
   return fmt::format("seed {}, tau {:.6g}, {} collisions", job().seed, tau(), gas_->collisions());
+}
+
+void Attempt::log(const std::string& what) const {
+  reporter_.send(
+      LogReport{LogReport::Level::info,
+                fmt::format("job {} ({}) {}", claim_.lease.job_id, describe(job()), what)});
 }
 
 void Attempt::report_progress() {

@@ -58,6 +58,7 @@ class Attempt {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void log(const std::string& what) const;
   void report_progress();
   // Asked to stop: whether to collide on to the next synchronization first.
   bool may_go_on_to_synchronization() const;

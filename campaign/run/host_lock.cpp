@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <ctime>
 #include <fstream>
@@ -14,6 +15,7 @@
 #include <thread>
 
 #include "campaign/base/command_text.hpp"
+#include "campaign/base/output.hpp"
 #include "campaign/base/signals.hpp"
 #include "campaign/run/process.hpp"
 #include "schema/network.hpp"
@@ -24,9 +26,13 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr const char* name(Use use) {
+  return use == Use::read ? "read" : use == Use::write ? "write" : "run";
+}
+
 struct Holder {
   schema::Owner owner;
-  bool is_run = false;
+  Use use = Use::write;
   std::string since;  // UTC
 };
 
@@ -42,60 +48,87 @@ std::optional<Holder> holder_of(const fs::path& path) {
                   .boot_id = text.value("boot_id", ""),
                   .pid = text.value("pid", std::int64_t{0}),
                   .started = text.value("started", std::int64_t{0})};
-  holder.is_run = text.value("run", false);
+  for (const Use use : {Use::read, Use::run})
+    if (text.value("use", "") == name(use)) holder.use = use;
   holder.since = text.value("since", "");
   return holder;
 }
 
+// What a command does that finds the lock of a living process of its own host.
+enum class Manners { share, take_over, wait };
+
+Manners manners(Use mine, Use theirs) {
+  if (mine == Use::read) return Manners::share;
+  if (theirs == Use::read) return Manners::take_over;  // or it would end before our use does
+  return mine == Use::write && theirs == Use::run ? Manners::share : Manners::wait;
+}
+
 }  // namespace
 
-HostLock::HostLock(const fs::path& store, bool is_run)
-    : HostLock(store, is_run, schema::is_on_network(store), this_process(), usual_patience) {}
+HostLock::HostLock(const fs::path& store, Use use, std::chrono::milliseconds patience)
+    : HostLock(store, use, schema::is_on_network(store), this_process(), patience) {}
 
-HostLock::HostLock(const fs::path& store, bool is_run, bool is_on_network, const schema::Owner& me,
+HostLock::HostLock(const fs::path& store, Use use, bool is_on_network, const schema::Owner& me,
                    std::chrono::milliseconds patience)
-    : file_(fs::weakly_canonical(store).string() + ".host") {
+    : file_(fs::weakly_canonical(store).string() + ".host"), use_(use), me_(me) {
   if (!is_on_network) return;
   constexpr std::chrono::milliseconds pause{100};
-  const auto until = std::chrono::steady_clock::now() + patience;
+  const auto start = std::chrono::steady_clock::now();
   for (;;) {
-    is_ours_ = take(me, is_run);
-    if (is_ours_) return;
+    const Taken taken = take();
+    is_ours_ = taken == Taken::yes;
+    if (taken != Taken::no) return;
     const auto holder = holder_of(file_);
-    if (!holder) continue;
-    const Life life = holder->owner.host == me.host ? life_of(holder->owner) : Life::unknown;
-    if (life == Life::alive && holder->is_run) return;  // shared with the run of this host
-    if (life == Life::dead) {
+    if (!holder) continue;  // it has just ended
+    const bool is_here = holder->owner.host == me.host;
+    const Life life = is_here ? life_of(holder->owner) : Life::unknown;
+    const auto how = life == Life::alive ? manners(use, holder->use) : Manners::wait;
+    if (how == Manners::share) return;
+    const auto waited = std::chrono::steady_clock::now() - start;
+    const bool is_old_reader =
+        holder->use == Use::read && waited > std::min(patience, usual_patience);
+    if (life == Life::dead || how == Manners::take_over || is_old_reader) {
       std::error_code ignored;
       fs::remove(file_, ignored);
       continue;
     }
-    if (std::chrono::steady_clock::now() > until || !may_wait_for_locks())
+    if (waited > patience || !may_wait_for_locks())
       throw schema::Locked(fmt::format(
           "{}: is used by process {} on host {} since {}, and lies on a network file system, where "
-          "two hosts must not use it at once; wait for that process, or if it is gone: rm {}",
+          "{} must not use it at once; wait for that process, or if it is gone: rm {}",
           store.string(), holder->owner.pid, holder->owner.host, holder->since,
-          shell_word(file_.string())));
+          is_here ? "two such commands" : "two hosts", shell_word(file_.string())));
     std::this_thread::sleep_for(pause);
   }
 }
 
 HostLock::~HostLock() {
-  std::error_code ignored;
-  if (is_ours_) fs::remove(file_, ignored);
+  if (!is_ours_) return;
+  const auto holder = holder_of(file_);
+  if (holder && holder->owner == me_) {
+    std::error_code ignored;
+    fs::remove(file_, ignored);
+  } else if (use_ == Use::read && holder && holder->owner.host != me_.host) {
+    complain(
+        "campaign: host {} has begun to use the store while it was read here; if what was "
+        "read is not in order, give the same command again\n",
+        holder->owner.host);
+  }
 }
 
 // Network file systems make a file that must not exist yet at the server: one of two hosts wins.
-bool HostLock::take(const schema::Owner& me, bool is_run) const {
+HostLock::Taken HostLock::take() const {
   const std::string text =
-      json{{"host", me.host}, {"boot_id", me.boot_id},
-           {"pid", me.pid},   {"started", me.started},
-           {"run", is_run},   {"since", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}}
+      json{
+          {"host", me_.host},  {"boot_id", me_.boot_id},
+          {"pid", me_.pid},    {"started", me_.started},
+          {"use", name(use_)}, {"since", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}}
           .dump() +
       '\n';
   const int file = open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (file < 0) {
-    if (errno == EEXIST) return false;
+    if (errno == EEXIST) return Taken::no;
+    if (use_ == Use::read) return Taken::impossible;
     throw schema::StoreError(
         fmt::format("{}: cannot be made ({}); check that its folder may be "
                     "written",
@@ -106,9 +139,10 @@ bool HostLock::take(const schema::Owner& me, bool is_run) const {
   if (!written) {
     std::error_code ignored;
     fs::remove(file_, ignored);
+    if (use_ == Use::read) return Taken::impossible;
     throw schema::DiskError(file_.string() + ": cannot be written; make room");
   }
-  return true;
+  return Taken::yes;
 }
 
 }  // namespace haff::campaign

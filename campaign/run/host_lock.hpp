@@ -2,9 +2,12 @@
 //
 // SQLite's write-ahead log needs memory that all users share, which hosts do not have, and the
 // locks of network file systems are not to be relied on for more than politeness. So a command that
-// may write such a store leaves a file beside it, STORE.host, that says which host uses it, by
-// which process and since when. Commands of the same host share the store while a run is on, as on
-// a local disk; those of another host wait for a moment and are then refused.
+// opens such a store leaves a file beside it, STORE.host, that says which host uses it, by which
+// process and since when. Commands of another host wait for a moment and are then refused. Commands
+// of the same host share the store as on a local disk: SQLite's own locks do between processes of
+// one host. The file is that of the process whose use matters most: a run's, else that of a command
+// that writes, else a reader's. A reader keeps other hosts waiting for a moment only, since it may
+// have been killed, and cannot do harm: it is told at its end that the store was written meanwhile.
 #pragma once
 
 #include <chrono>
@@ -14,25 +17,35 @@
 
 namespace haff::campaign {
 
+// What a process does with a store. A command that writes is over in seconds, a run takes hours.
+enum class Use { read, write, run };
+
 class HostLock {
  public:
-  // How long to wait for another user: a merge on a node of a cluster takes seconds.
-  static constexpr std::chrono::seconds usual_patience{10};
+  // How long to wait for another user: most commands take seconds.
+  static constexpr std::chrono::milliseconds usual_patience{10'000};
+  // The same where nobody could give the command again.
+  static constexpr std::chrono::milliseconds unattended_patience{600'000};
 
-  // Takes the lock for this process, unless the store is on a local disk. `is_run`: other commands
-  // of this host may use the store meanwhile. Throws schema::Locked if another host has it.
-  HostLock(const std::filesystem::path& store, bool is_run);
+  // Takes the lock for this process, unless the store is on a local disk. A reader that cannot
+  // write beside the store does without. Throws schema::Locked if another host has it, or if a
+  // command of this host has it that must not be disturbed.
+  HostLock(const std::filesystem::path& store, Use use,
+           std::chrono::milliseconds patience = usual_patience);
   // The same, for a store that is on a network file system or not as it is said.
-  HostLock(const std::filesystem::path& store, bool is_run, bool is_on_network,
-           const schema::Owner& me, std::chrono::milliseconds patience);
+  HostLock(const std::filesystem::path& store, Use use, bool is_on_network, const schema::Owner& me,
+           std::chrono::milliseconds patience);
   ~HostLock();
   HostLock(const HostLock&) = delete;
   HostLock& operator=(const HostLock&) = delete;
 
  private:
-  bool take(const schema::Owner& me, bool is_run) const;
+  enum class Taken { yes, no, impossible };
+  Taken take() const;
 
   std::filesystem::path file_;
+  Use use_;
+  schema::Owner me_;
   bool is_ours_ = false;
 };
 
