@@ -141,6 +141,15 @@ void copy_to_node(const fs::path& shard, const fs::path& working) {
         shard.string(), working.parent_path().string(), error.message()));
 }
 
+// A shard that an older program has written is brought forward. No one else knows of the copy, so
+// that the leases in it are nobody's.
+void bring_forward(const fs::path& working) {
+  std::vector<schema::Lease> leases;
+  for (const schema::RunningJob& job : schema::Reader(working).running())
+    leases.push_back(job.lease);
+  schema::Store::upgrade(working, leases);
+}
+
 // `campaign run` on the copy: the same program, as a child that dies with this process.
 pid_t start_run(const fs::path& store, const TaskOptions& options) {
   std::vector<std::string> words{"campaign",     "run",       "--store",
@@ -176,6 +185,7 @@ class Task {
 
   int work() {
     copy_to_node(shard_, working_);
+    bring_forward(working_);
     spdlog::info("{} is worked on in {}", shard_.string(), scratch_.path().string());
     const int exit_code = run();
     try {

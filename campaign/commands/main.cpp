@@ -106,9 +106,12 @@ struct CommandDispatcher {
   }
   int operator()(const TaskOptions& options) const { return task(options); }
   int operator()(const TheoryOptions& options) const { return theory(options); }
-  int operator()(const BackupCommand& command) const { return back_up(line.store, command.to); }
+  int operator()(const BackupCommand& command) const {
+    const HostLock lock(line.store, Use::read);
+    return back_up(line.store, command.to);
+  }
   int operator()(const UpgradeCommand&) const {
-    const HostLock lock(line.store, false);
+    const HostLock lock(line.store, Use::write);
     return upgrade(line.store);
   }
   int operator()(const ReportOptions& options) const {

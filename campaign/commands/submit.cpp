@@ -55,8 +55,6 @@ bool bring_home(schema::Store& store, const schema::Shard& shard) try {
   return outcome.rows > 0 || outcome.advanced > 0;
 } catch (const schema::Unavailable&) {
   throw;
-} catch (const schema::Locked&) {
-  throw;
 } catch (const schema::StoreError& error) {
   complain("campaign: {}; what it has not sent home is computed again\n", error.what());
   store.recall(shard.name);

@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -100,11 +101,13 @@ void Program::signal(int number) const {
 
 Outcome Program::wait() {
   int status = 0;
-  while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+  rusage used{};
+  while (wait4(id_, &status, 0, &used) < 0 && errno == EINTR) {
   }
   id_ = 0;
   return {WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status),
-          text_of(folder_ / (output_ + ".out")), text_of(folder_ / (output_ + ".err"))};
+          text_of(folder_ / (output_ + ".out")), text_of(folder_ / (output_ + ".err")),
+          1024.0 * static_cast<double>(used.ru_maxrss)};
 }
 
 Outcome campaign(const Folder& folder, std::vector<std::string> words) {

@@ -29,6 +29,7 @@ class Folder {
 struct Outcome {
   int exit_code = 0;  // 128 + signal if a signal killed it
   std::string out, err;
+  double peak_bytes = 0;  // of memory that it has held
 };
 
 // A program running in a folder: `campaign`, or whatever the first word names by its path.

@@ -1,10 +1,14 @@
 // Tasks and nodes of a real Slurm (support/slurm_cluster.hpp) disturbed in every way that happens
-// on a cluster: minutes, since Slurm itself waits for nodes and counts time limits in minutes.
+// on a cluster: minutes, since Slurm itself waits for nodes and counts time limits in minutes. In
+// the end the rows are those of one undisturbed run, in every bit, and only what was lost was
+// computed twice.
 #include <doctest/doctest.h>
 
 #include <csignal>
+#include <fstream>
+#include <sstream>
 
-#include "cli/program.hpp"
+#include "support/divided_campaign.hpp"
 #include "support/slurm_cluster.hpp"
 
 using namespace haff::tests;
@@ -12,104 +16,137 @@ using namespace std::chrono_literals;
 
 namespace {
 
-void plan(const Folder& folder, const std::string& text) {
-  folder.write("grid.json", text);
-  REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
+std::string paper_small() {
+  std::ifstream file(HAFF_EXAMPLES "/paper-small.json");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
 }
 
-std::string calm_rows(const std::string& text) {
-  const Folder folder;
-  plan(folder, text);
-  REQUIRE(campaign(folder, {"run"}).exit_code == 0);
-  return rows(folder);
+void start(const Folder& folder, const std::string& time, std::vector<std::string> further = {}) {
+  further.insert(further.begin(), {"--", "--mem=100"});
+  const Outcome outcome = submit(folder, time, further);
+  REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
 }
 
-void submit(const Folder& folder, const std::string& time) {
-  const Outcome outcome = campaign(folder, {"submit", "--tasks", "3", "--cpus", "1", "--time", time,
-                                            "--put-back-every", "1s", "--", "--mem=100"});
-  CAPTURE(outcome.err);
-  REQUIRE(outcome.exit_code == 0);
-}
-
-std::string logs(const Folder& folder) {
-  return shell(folder, "tail -n 30 shards/*.log").out;
-}
-
-void wait_for_tasks(const Folder& folder, const std::string& state, int count) {
-  for (int patience = 0; patience < 600; ++patience) {
-    const Outcome seen =
-        shell(folder, "squeue --noheader --me --array --states=" + state + " | wc -l");
-    if (std::stoi(seen.out) >= count) return;
-    sleep_for(100ms);
+// Submits again, as a user does who has cancelled something, until nothing is left.
+void go_on(const Folder& folder, const SlurmCluster& cluster, int seconds) {
+  cluster.wait_until_empty(seconds);
+  for (int round = 0; number(folder, "SELECT count(*) FROM jobs WHERE status <> 'done'") > 0;
+       ++round) {
+    REQUIRE_MESSAGE(round < 3, "the campaign does not come to an end:\n" << logs(folder));
+    start(folder, "10m");
+    cluster.wait_until_empty(seconds);
   }
-  FAIL("no " << count << " tasks are " << state << ":\n" << logs(folder));
 }
 
-// Some ten seconds of work in few jobs, for what is to be disturbed.
-constexpr const char* long_grid = R"({
-  "e": [0.9, 0.95], "n": 0.4, "N": 1000, "seeds": 3, "tau_max": 3000, "sample_every": 10,
-  "checkpoint_every": 10})";
-
-void check_home(const Folder& folder, const std::string& expected) {
-  CAPTURE(logs(folder));
-  CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status <> 'done'") == 0);
-  CHECK(rows(folder) == expected);
-  CHECK(campaign(folder, {"verify"}).exit_code == 0);
+// The processes of a task, known by the shard that they work on: its workers, or all of them.
+void kill_processes(const Folder& folder, const std::string& words) {
+  const Outcome killed = shell(folder, R"(
+    for p in /proc/[0-9]*; do
+      tr '\0' ' ' < $p/cmdline 2> /dev/null | grep -q -e ')" +
+                                           words + R"(' || continue
+      tr '\0' '\n' < $p/environ 2> /dev/null | grep -qx "SLURM_CONF=$SLURM_CONF" || continue
+      kill -9 ${p#/proc/} && echo killed
+    done)");
+  CHECK_MESSAGE(killed.out.find("killed") != std::string::npos, "no process: " << words);
 }
 
 }  // namespace
 
-TEST_CASE("slurm: tasks cancelled, requeued and killed, a node down: the same rows come home") {
-  const std::string expected = calm_rows(long_grid);
+TEST_CASE("slurm: the paper's small grid, tasks cancelled, requeued and killed, a node lost") {
+  const std::string grid = paper_small();
+  const std::string expected = calm_rows(grid);
   const Folder folder;
   const SlurmCluster cluster(folder / "slurm");
-  plan(folder, long_grid);
-  submit(folder, "5m");
-  wait_for_tasks(folder, "RUNNING", 3);
-  sleep_for(1500ms);
+  plan(folder, grid);
+  start(folder, "10m");
+  wait_for_running(folder, "all", 3);
+  for (const char* shard : {"shard-001", "shard-002", "shard-003"})
+    wait_for_states(folder, shard, 1);
+  const std::string job = tasks_job(folder, 1);
 
-  // One task is cancelled, one requeued, one loses its workers.
-  const std::string job = shell(folder,
-                                "sed -n 's/.*tasks_job\": \"\\(.*\\)\".*/\\1/p' "
-                                "shards/round-001.json | tr -d '\\n'")
-                              .out;
-  REQUIRE_FALSE(job.empty());
   cluster.slurm("scancel " + job + "_1");
   cluster.slurm("scontrol requeue " + job + "_2");
-  // The workers of the third, known by the store that they work on.
-  shell(folder,
-        "for p in /proc/[0-9]*; do tr '\\0' ' ' < $p/cmdline 2> /dev/null | "
-        "grep -q 'campaign-.*/shard.db worker' && readlink $p/exe | grep -q campaign && "
-        "[ \"$(tr '\\0' '\\n' < $p/environ | sed -n 's/^SLURM_CONF=//p')\" = \"$SLURM_CONF\" ] "
-        "&& kill -9 ${p#/proc/}; done; true");
-  // A node whose daemon is killed is set down, and comes back.
+  kill_processes(folder, "campaign-.*/shard.db worker");
+  sleep_for(3s);
+  // A node whose daemon is killed goes on with its tasks, where Slurm does not see them.
   kill(cluster.daemon("n2"), SIGKILL);
   cluster.slurm("scontrol update nodename=n2 state=down reason=test");
-  sleep_for(1500ms);
+  sleep_for(5s);
   cluster.start_daemon("n2");
   cluster.slurm("scontrol update nodename=n2 state=resume || true");
-
-  cluster.wait_until_empty(240);
-  // A user who cancelled tasks may have to submit once more.
-  if (number(folder, "SELECT count(*) FROM jobs WHERE status <> 'done'") > 0) {
-    campaign(folder, {"merge", "shards/shard-001.db"});
-    shell(folder, "for s in shards/shard-*.db; do \"$campaign\" recall $s; done");
-    submit(folder, "5m");
-    cluster.wait_until_empty(240);
-  }
+  go_on(folder, cluster, 400);
   check_home(folder, expected);
 }
 
+TEST_CASE("slurm: effects and a target, preempted and requeued: nothing stored is computed twice") {
+  const std::string grid = R"({
+    "n": 0.3, "N": 1000, "seeds": 3, "equilibrate": 20, "checkpoint_every": 10,
+    "grids": [
+      {"e": [0.8, 0.95], "tau_max": 400, "profiles_every": 20, "fields_at": [20], "observables":
+        ["temperature", "laguerre", "distribution", "correlations", "clusters", "fields"]},
+      {"e": 0.7, "tau_max": 400, "effects": {"roughness": {"beta": 0.5, "q": 0.4}}},
+      {"e": 0.9, "seeds": 5, "tau_max": 15, "target": {"a2": {"tau": [5, 15], "se": 0.003}}}]})";
+  const std::string expected = calm_rows(grid);
+  const Folder folder;
+  const SlurmCluster cluster(folder / "slurm");
+  plan(folder, grid);
+  start(folder, "10m");
+  wait_for_running(folder, "all", 3);
+  wait_for_states(folder, "shard-001", 1);
+
+  // A partition that goes before takes both nodes for a moment.
+  cluster.slurm(
+      "sbatch --partition=urgent --array=1-2 --cpus-per-task=2 --mem=100 --time=1 "
+      "--output=/dev/null --wrap 'sleep 2'");
+  wait_for_running(folder, "urgent", 2);
+  wait_for_running(folder, "all", 3);
+  sleep_for(1s);
+  cluster.slurm("scontrol requeue " + tasks_job(folder, 1) + "_1");
+  go_on(folder, cluster, 400);
+  check_home(folder, expected);
+  CHECK(shell(folder, "cat shards/*.log").out.find("goes on from tau = ") != std::string::npos);
+  CHECK(computed_twice(folder) == "");
+  CHECK(number(folder, "SELECT count(*) FROM jobs WHERE e = 0.9 AND seed > 5") > 0);
+}
+
 TEST_CASE("slurm: a time limit strikes, and what is left is done in further rounds") {
-  // Some three minutes of work for one task with a limit of one minute, of which a quarter is
-  // reserved for storing.
-  const char* slow_grid = R"({"e": 0.95, "n": 0.4, "N": 4000, "seeds": 2, "tau_max": 40000,
+  // Some two minutes of work for three tasks that are told ten minutes and get one, so that Slurm
+  // ends them: SIGTERM, and SIGKILL two seconds later.
+  const char* slow_grid = R"({"e": 0.95, "n": 0.4, "N": 4000, "seeds": 3, "tau_max": 30000,
     "sample_every": 100, "checkpoint_every": 100, "observables": ["temperature"]})";
   const Folder folder;
   const SlurmCluster cluster(folder / "slurm");
   plan(folder, slow_grid);
-  submit(folder, "1m");
-  cluster.wait_until_empty(550);
+  start(folder, "10m", {"--time=1"});
+  cluster.wait_until_empty(580);
   CHECK(std::filesystem::exists(folder / "shards/round-002.json"));
+  CHECK(shell(folder, "cat shards/*.log").out.find("DUE TO TIME LIMIT") != std::string::npos);
+  CHECK(computed_twice(folder) == "");
   check_home(folder, calm_rows(slow_grid));
+}
+
+TEST_CASE("slurm: a node's scratch fills up, and what was put back is gone on with") {
+  const Folder folder;
+  if (shell(folder, "mkdir small; mount -t tmpfs -o size=3m tmpfs small").exit_code != 0) {
+    MESSAGE("SKIPPED: only root may mount a tmpfs where Slurm's tasks see it");
+    return;
+  }
+  const std::string expected = calm_rows(grid_with_everything);
+  plan(folder, grid_with_everything);
+  {
+    const SlurmCluster cluster(folder / "slurm");
+    const Outcome outcome = shell(folder,
+                                  "TMPDIR=$PWD/small exec \"$campaign\" submit --tasks 1 --cpus 2 "
+                                  "--time 10m --put-back-every 0.3s --rounds 1 -- --mem=100");
+    REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
+    cluster.wait_until_empty(200);
+    CHECK_MESSAGE(logs(folder).find("disk is full") != std::string::npos, logs(folder));
+    CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'pending'") > 0);
+    shell(folder, "umount small");
+    go_on(folder, cluster, 200);
+  }
+  check_home(folder, expected);
+  CHECK(computed_twice(folder) == "");
 }

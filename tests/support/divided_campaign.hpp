@@ -1,0 +1,60 @@
+// A campaign that is divided among shards or the tasks of a cluster, and what must come home of it.
+#pragma once
+
+#include <chrono>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "cli/program.hpp"
+
+namespace haff::tests {
+
+// Everything that a store can hold of a job: an effect, profiles, fields, and a target whose seeds
+// are found in later rounds.
+extern const std::string grid_with_everything;
+
+// Some seconds of work in six jobs that store often, for what is to be disturbed.
+extern const std::string long_grid;
+
+// A grid of a few small gases, with effects, observables and cadences drawn at random.
+std::string random_grid(std::mt19937& random);
+
+void plan(const Folder& folder, const std::string& grid);
+
+// The rows of one undisturbed run of the grid.
+std::string calm_rows(const std::string& grid);
+
+// `campaign submit` with three tasks of one processor that save their shards each second, and
+// further words.
+Outcome submit(const Folder& folder, const std::string& time,
+               std::vector<std::string> further = {});
+
+// The number of Slurm's job with the tasks of this round.
+std::string tasks_job(const Folder& folder, int round);
+
+// Waits until so many tasks of a partition run. Slurm keeps one that was requeued for two minutes.
+void wait_for_running(const Folder& folder, const std::string& partition, int count);
+
+// Waits until so many states are in the shard at home: its task has put it back.
+void wait_for_states(const Folder& folder, const std::string& shard, int count);
+
+// Starts the command and kills it after some milliseconds. Whether it still ran then.
+bool kill_after(const Folder& folder, std::vector<std::string> words,
+                std::chrono::milliseconds time);
+
+// A random campaign, divided, run, killed, merged and recalled at random until nothing is pending
+// or lent; checks that its rows are those of one run. Returns how many merges were killed at work.
+int wander(unsigned seed);
+
+// The ends of the logs of all tasks and merges, for messages.
+std::string logs(const Folder& folder);
+
+// All jobs are done, the rows are these, in every bit, and the store is sound.
+void check_home(const Folder& folder, const std::string& expected);
+
+// The stretches of tau of cooling jobs that two attempts have both computed and both stored, as the
+// logs of the tasks tell, a line each: nothing, if only what was lost was computed again.
+std::string computed_twice(const Folder& folder);
+
+}  // namespace haff::tests
