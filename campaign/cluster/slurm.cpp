@@ -92,7 +92,7 @@ std::string tasks_script(const ClusterOptions& options, const Round& round) {
       R"(#!/bin/sh
 # Task k works on the shard in line k of the list.
 shard=$(sed -n "${{SLURM_ARRAY_TASK_ID}}p" {})
-exec {} task --workers "${{SLURM_CPUS_PER_TASK:-{}}}" --max-time {:.0f}s --put-back-every {:.0f}s -- "$shard"
+exec {} task --workers "${{SLURM_CPUS_PER_TASK:-{}}}" --max-time {}s --put-back-every {}s -- "$shard"
 )",
       shell_word(round_file(options.folder, round.number, ".shards").string()),
       shell_word(this_program()), options.cpus, options.seconds - reserve(options),
@@ -101,7 +101,7 @@ exec {} task --workers "${{SLURM_CPUS_PER_TASK:-{}}}" --max-time {:.0f}s --put-b
 
 std::string merge_script(const ClusterOptions& options, const Round& round) {
   std::string words = fmt::format(
-      "submit --store {} --out {} --tasks {} --cpus {} --time {:.0f}s --put-back-every {:.0f}s "
+      "submit --store {} --out {} --tasks {} --cpus {} --time {}s --put-back-every {}s "
       "--rounds {} --round {}",
       shell_word(options.store.string()), shell_word(options.folder.string()), options.tasks,
       options.cpus, options.seconds, options.put_back_every, options.rounds - 1, round.number + 1);
