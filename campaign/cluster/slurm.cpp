@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "campaign/base/command_text.hpp"
-#include "campaign/base/duration.hpp"
 #include "campaign/base/write_file.hpp"
 #include "campaign/cluster/subprocess.hpp"
 
@@ -38,9 +38,13 @@ std::string slurm_time(double seconds) {
 
 // As a user types it: 4h, 1h30m.
 std::string duration_word(double seconds) {
-  std::string word = duration_text(seconds);
-  std::erase(word, ' ');
-  return seconds_from_text(word) == seconds ? word : fmt::format("{:.0f}s", seconds);
+  auto left = static_cast<long long>(std::ceil(seconds));
+  std::string word;
+  for (const auto& [unit, length] : {std::pair{'d', 86400}, {'h', 3600}, {'m', 60}, {'s', 1}}) {
+    if (left >= length) word += fmt::format("{}{}", left / length, unit);
+    left %= length;
+  }
+  return word;
 }
 
 std::vector<std::string> with_options(std::vector<std::string> words, const ClusterOptions& options,

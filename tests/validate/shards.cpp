@@ -33,11 +33,11 @@ TEST_CASE(
 
 TEST_CASE("shards: of a million particles each, no more than one state is held in memory") {
   const Folder folder;
-  plan(folder, R"({"e": 0.9, "n": 0.3, "N": 1000000, "seeds": 2, "tau_max": 1, "equilibrate": 1,
+  plan(folder, R"({"e": 0.9, "n": 0.3, "N": 1000000, "seeds": 2, "tau_max": 1, "equilibrate": 10,
     "checkpoint_every": 1, "observables": ["temperature"]})");
   done(folder, {"run", "--workers", "2", "--max-time", "8m"});
   // Four states, of some 57 MB each, are at home; a longer tau_max lends them out.
-  plan(folder, R"({"e": 0.9, "n": 0.3, "N": 1000000, "seeds": 2, "tau_max": 2, "equilibrate": 1,
+  plan(folder, R"({"e": 0.9, "n": 0.3, "N": 1000000, "seeds": 2, "tau_max": 2, "equilibrate": 10,
     "checkpoint_every": 1, "observables": ["temperature"]})");
   const double state = number(folder, "SELECT max(bytes) FROM checkpoints");
   CHECK(number(folder, "SELECT count(*) FROM checkpoints") >= 2);
@@ -57,7 +57,7 @@ TEST_CASE("shards: 30 000 jobs are split and merged in seconds for a thousand, m
     std::string e;
     for (int k = 0; k < 100; ++k) e += (k == 0 ? "" : ", ") + std::to_string(0.5 + 0.004 * k);
     plan(folder, R"({"e": [)" + e + R"(], "n": 0.3, "N": 64, "seeds": )" + std::to_string(seeds) +
-                     R"(, "tau_max": 5, "equilibrate": 5,
+                     R"(, "tau_max": 5, "equilibrate": 10,
                      "observables": ["temperature"]})");
     const double jobs = number(folder, "SELECT count(*) FROM jobs");
     const auto start = Clock::now();

@@ -40,16 +40,15 @@ void go_on(const Folder& folder, const SlurmCluster& cluster, int seconds) {
   }
 }
 
-// The processes of a task, known by the shard that they work on: its workers, or all of them.
-void kill_processes(const Folder& folder, const std::string& words) {
-  const Outcome killed = shell(folder, R"(
+// Sends a signal to the workers of all tasks, known by the shards that they work on.
+void signal_workers(const Folder& folder, const std::string& signal) {
+  const Outcome sent = shell(folder, R"(
     for p in /proc/[0-9]*; do
-      tr '\0' ' ' < $p/cmdline 2> /dev/null | grep -q -e ')" +
-                                           words + R"(' || continue
+      tr '\0' ' ' < $p/cmdline 2> /dev/null | grep -q 'campaign-.*/shard.db worker' || continue
       tr '\0' '\n' < $p/environ 2> /dev/null | grep -qx "SLURM_CONF=$SLURM_CONF" || continue
-      kill -9 ${p#/proc/} && echo killed
+      kill -)" + signal + R"( ${p#/proc/} && echo sent
     done)");
-  CHECK_MESSAGE(killed.out.find("killed") != std::string::npos, "no process: " << words);
+  CHECK(sent.out.find("sent") != std::string::npos);
 }
 
 }  // namespace
@@ -68,7 +67,7 @@ TEST_CASE("slurm: the paper's small grid, tasks cancelled, requeued and killed, 
 
   cluster.slurm("scancel " + job + "_1");
   cluster.slurm("scontrol requeue " + job + "_2");
-  kill_processes(folder, "campaign-.*/shard.db worker");
+  signal_workers(folder, "KILL");
   sleep_for(3s);
   // A node whose daemon is killed goes on with its tasks, where Slurm does not see them.
   kill(cluster.daemon("n2"), SIGKILL);
@@ -111,20 +110,24 @@ TEST_CASE("slurm: effects and a target, preempted and requeued: nothing stored i
   CHECK(number(folder, "SELECT count(*) FROM jobs WHERE e = 0.9 AND seed > 5") > 0);
 }
 
-TEST_CASE("slurm: a time limit strikes, and what is left is done in further rounds") {
-  // Some two minutes of work for three tasks that are told ten minutes and get one, so that Slurm
-  // ends them: SIGTERM, and SIGKILL two seconds later.
-  const char* slow_grid = R"({"e": 0.95, "n": 0.4, "N": 4000, "seeds": 3, "tau_max": 30000,
-    "sample_every": 100, "checkpoint_every": 100, "observables": ["temperature"]})";
+TEST_CASE("slurm: a time limit strikes, and what is left is done in the next round") {
+  // The tasks are told ten minutes and get one, without the signal that goes before; their workers
+  // hang until Slurm ends them: SIGCONT, SIGTERM, and SIGKILL two seconds later.
+  const std::string grid = R"({"e": [0.9, 0.95], "n": 0.4, "N": 1000, "seeds": 3, "tau_max": 5000,
+    "sample_every": 50, "checkpoint_every": 50, "observables": ["temperature"]})";
+  const std::string expected = calm_rows(grid);
   const Folder folder;
   const SlurmCluster cluster(folder / "slurm");
-  plan(folder, slow_grid);
-  start(folder, "10m", {"--time=1"});
-  cluster.wait_until_empty(580);
+  plan(folder, grid);
+  start(folder, "10m", {"--time=1", "--signal=B:CONT@1"});
+  for (const char* shard : {"shard-001", "shard-002", "shard-003"})
+    wait_for_states(folder, shard, 1);
+  signal_workers(folder, "STOP");
+  go_on(folder, cluster, 300);
   CHECK(std::filesystem::exists(folder / "shards/round-002.json"));
   CHECK(shell(folder, "cat shards/*.log").out.find("DUE TO TIME LIMIT") != std::string::npos);
   CHECK(computed_twice(folder) == "");
-  check_home(folder, calm_rows(slow_grid));
+  check_home(folder, expected);
 }
 
 TEST_CASE("slurm: a node's scratch fills up, and what was put back is gone on with") {
