@@ -75,7 +75,7 @@ TEST_CASE("slurm: the paper's small grid, tasks cancelled, requeued and killed, 
   sleep_for(5s);
   cluster.start_daemon("n2");
   cluster.slurm("scontrol update nodename=n2 state=resume || true");
-  go_on(folder, cluster, 400);
+  go_on(folder, cluster, 800);
   check_home(folder, expected);
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("slurm: effects and a target, preempted and requeued: nothing stored i
   wait_for_running(folder, "all", 3);
   sleep_for(1s);
   cluster.slurm("scontrol requeue " + tasks_job(folder, 1) + "_1");
-  go_on(folder, cluster, 400);
+  go_on(folder, cluster, 800);
   check_home(folder, expected);
   CHECK(shell(folder, "cat shards/*.log").out.find("goes on from tau = ") != std::string::npos);
   CHECK(computed_twice(folder) == "");
