@@ -377,6 +377,7 @@ std::optional<Checkpoint> Reader::checkpoint(std::int64_t job_id) const {
                     std::to_string(info.bytes));
 
     Checkpoint checkpoint{.tau = info.tau, .collisions = info.collisions, .state = {}};
+    checkpoint.state.reserve(static_cast<std::size_t>(info.bytes));  // never two halves of it
     SQLite::Statement chunks(
         database_->sqlite(),
         "SELECT position, bytes FROM checkpoint_chunks WHERE job_id = ? ORDER BY position");

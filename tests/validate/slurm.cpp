@@ -44,6 +44,9 @@ void go_on(const Folder& folder, const SlurmCluster& cluster, int seconds) {
 void signal_workers(const Folder& folder, const std::string& signal) {
   const Outcome sent = shell(folder, R"(
     for p in /proc/[0-9]*; do
+      case "$(readlink $p/exe)" in * / campaign);
+  ; *) continue ;
+  ; esac
       tr '\0' ' ' < $p/cmdline 2> /dev/null | grep -q 'campaign-.*/shard.db worker' || continue
       tr '\0' '\n' < $p/environ 2> /dev/null | grep -qx "SLURM_CONF=$SLURM_CONF" || continue
       kill -)" + signal + R"( ${p#/proc/} && echo sent
@@ -77,6 +80,9 @@ TEST_CASE("slurm: the paper's small grid, tasks cancelled, requeued and killed, 
   cluster.slurm("scontrol update nodename=n2 state=resume || true");
   go_on(folder, cluster, 800);
   check_home(folder, expected);
+  // A task that is cancelled stores what it can before it goes.
+  CHECK(shell(folder, "cat shards/round-001-task-1.log").out.find("is left at tau = ") !=
+        std::string::npos);
 }
 
 TEST_CASE("slurm: effects and a target, preempted and requeued: nothing stored is computed twice") {
