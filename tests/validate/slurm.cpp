@@ -42,15 +42,13 @@ void go_on(const Folder& folder, const SlurmCluster& cluster, int seconds) {
 
 // Sends a signal to the workers of all tasks, known by the shards that they work on.
 void signal_workers(const Folder& folder, const std::string& signal) {
-  const Outcome sent = shell(folder, R"(
+  const Outcome sent = shell(folder, R"SH(
     for p in /proc/[0-9]*; do
-      case "$(readlink $p/exe)" in * / campaign);
-  ; *) continue ;
-  ; esac
+      case "$(readlink $p/exe)" in */campaign) ;; *) continue ;; esac
       tr '\0' ' ' < $p/cmdline 2> /dev/null | grep -q 'campaign-.*/shard.db worker' || continue
       tr '\0' '\n' < $p/environ 2> /dev/null | grep -qx "SLURM_CONF=$SLURM_CONF" || continue
-      kill -)" + signal + R"( ${p#/proc/} && echo sent
-    done)");
+      kill -)SH" + signal + R"SH( ${p#/proc/} && echo sent
+    done)SH");
   CHECK(sent.out.find("sent") != std::string::npos);
 }
 
