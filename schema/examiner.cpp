@@ -137,9 +137,11 @@ class Examiner {
     const Placed effects = source["effects"];
     for (const Placed& listed : items(effects))
       for (const Json& one : expanded(listed.value)) {
-        if (const auto why = nonsense(one)) throw fault(file_, listed.where, *why);
-        has_one_restitution(source, one);
-        if (one.contains("thermostat") && !lose_energy_at_e_1(one)) loses_energy(source);
+        const Effects effects_of_one(one.dump());
+        if (const auto why = nonsense(effects_of_one)) throw fault(file_, listed.where, *why);
+        has_one_restitution(source, effects_of_one);
+        if (effects_of_one.contains("thermostat") && !lose_energy_at_e_1(effects_of_one))
+          loses_energy(source);
       }
     collides_between_shuffles(source, effects);
     has_both_species(source, effects);
@@ -287,7 +289,7 @@ class Examiner {
     if (e.empty() || std::count(e.begin(), e.end(), 1.0) > 0)
       throw fault(file_, where, "does not exist without a constant e below 1");
     for (const Json& one : expanded(source["effects"].value))
-      if (const auto effect = beyond_haffs_law(one))
+      if (const auto effect = beyond_haffs_law(Effects(one.dump())))
         throw fault(
             file_, where,
             "does not exist with " + *effect +
@@ -398,7 +400,7 @@ class Examiner {
   }
 
   // A constant e, or a law that gives every collision its own.
-  void has_one_restitution(const Source& source, const Json& effects) const {
+  void has_one_restitution(const Source& source, const Effects& effects) const {
     const auto e = source.find("e");
     const auto law = law_without_e(effects);
     if (e && law)

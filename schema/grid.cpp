@@ -53,16 +53,15 @@ std::vector<Target> targets(const Source& source) {
   return all;
 }
 
-std::vector<std::string> effects(const Placed& placed) {
-  std::vector<std::string> texts;
+std::vector<Effects> effects(const Placed& placed) {
+  std::vector<Effects> all;
   for (Json& one : expanded(placed.value)) {
     // What is so without being asked for is no effect.
     if (one.value("/restitution/law"_json_pointer, "") == "constant") one.erase("restitution");
-    std::string text = one.dump();
-    if (std::find(texts.begin(), texts.end(), text) == texts.end())
-      texts.push_back(std::move(text));
+    Effects effects(one.dump());
+    if (std::find(all.begin(), all.end(), effects) == all.end()) all.push_back(std::move(effects));
   }
-  return texts;
+  return all;
 }
 
 SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "schema/effects.hpp"
 #include "schema/target.hpp"
 
 namespace haff::schema {
@@ -35,7 +36,7 @@ struct SubGrid {
   std::vector<std::string> observables;  // sorted
   std::optional<double> profiles_every;  // where an observable is a profile
   std::vector<double> fields_at;         // increasing; where fields are an observable
-  std::vector<std::string> effects;      // each as in Job::effects
+  std::vector<Effects> effects;          // each as in Job::effects
   std::vector<Target> targets;           // of each of its series; seeds are the pilot runs
 };
 

@@ -55,7 +55,7 @@ Job equilibration_of(const Job& cooling) {
 std::string identity(const Job& job) {
   return R"({"d":)" + std::to_string(job.d) +            //
          R"(,"e":)" + (job.e ? real(*job.e) : "null") +  //
-         R"(,"effects":)" + job.effects +                //
+         R"(,"effects":)" + job.effects.text() +         //
          R"(,"equilibrate":)" + real(job.equilibrate) +  //
          (job.fields_at.empty() ? "" : R"(,"fields_at":)" + fields_at_text(job.fields_at)) +
          R"(,"kind":")" + std::string(name(job.kind)) +              //
@@ -68,7 +68,7 @@ std::string identity(const Job& job) {
 }
 
 bool cools_by_haff(const Job& job) {
-  return job.e.has_value() && !beyond_haffs_law(nlohmann::json::parse(job.effects));
+  return job.e.has_value() && !beyond_haffs_law(job.effects);
 }
 
 std::string series_identity(Job job) {

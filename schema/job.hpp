@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "schema/effects.hpp"
+
 namespace haff::schema {
 
 // A job either melts and equilibrates an elastic gas (e = 1) or lets an equilibrated one cool.
@@ -54,7 +56,7 @@ struct Job {
   std::uint64_t seed = 0;       // realization, 0 ... 2^53 - 1
   double equilibrate = 50;      // elastic collisions per particle before cooling
   double sample_every = 1;      // samples are taken at tau = k sample_every
-  std::string effects = "{}";   // JSON object, keys sorted, no spaces
+  Effects effects = {};
   std::vector<std::string> observables = {};  // listed in grid.schema.json; in any order
   std::optional<double> profiles_every = {};  // profiles at tau = k profiles_every; empty: none
   std::vector<double> fields_at = {};         // fields at these tau, increasing

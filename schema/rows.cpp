@@ -27,20 +27,10 @@ auto canonical(const SQLite::Statement& row, const char* column, Read&& read, Wr
   throw BadValue(std::string("the column ") + column + " is not as campaign writes it");
 }
 
-// {"effect":{"parameter":number, ...}, ...}; only the law of restitution is called by a name.
-nlohmann::json effects_in(const std::string& text) {
-  auto effects = nlohmann::json::parse(text);
-  for (const auto& [effect, parameters] : effects.get<nlohmann::json::object_t>())
-    for (const auto& [parameter, value] : parameters.get<nlohmann::json::object_t>()) {
-      const bool is_law = effect == "restitution" && parameter == "law" && value.is_string();
-      if (!is_law && !value.is_number()) throw std::invalid_argument("not a number");
-    }
-  return effects;
-}
-
-std::string effects(const SQLite::Statement& row) {
-  return canonical(row, "effects", effects_in, [](const nlohmann::json& all) { return all.dump(); })
-      .dump();
+Effects effects(const SQLite::Statement& row) {
+  return canonical(
+      row, "effects", [](const std::string& json) { return Effects(json); },
+      [](const Effects& all) { return all.text(); });
 }
 
 std::vector<double> fields_at(const SQLite::Statement& row) {

@@ -67,7 +67,7 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
   statement.bind(":seed", static_cast<std::int64_t>(job.seed));
   statement.bind(":equilibrate", job.equilibrate);
   statement.bind(":sample_every", job.sample_every);
-  statement.bind(":effects", job.effects);
+  statement.bind(":effects", job.effects.text());
   statement.bind(":observables", observables_text(job.observables));
   bind(statement, ":profiles_every", job.profiles_every);
   if (!job.fields_at.empty()) statement.bind(":fields_at", fields_at_text(job.fields_at));

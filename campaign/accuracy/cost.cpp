@@ -53,7 +53,7 @@ std::string plan_for(SystematicEffect cause) {
 
 std::string gas_text(const schema::Job& job) {
   return fmt::format("e {}, n {}{}{}", e_text(job), number_text(job.n), job.d == 2 ? ", disks" : "",
-                     job.effects == schema::Job{}.effects ? "" : ", " + printable(job.effects));
+                     job.effects.none() ? "" : ", " + printable(job.effects.text()));
 }
 
 // Names in the order in which they come, each once.
@@ -96,7 +96,7 @@ void print_statistics(const Assessment& assessment, std::ostream& report) {
       notes.push_back(fmt::format("interval from {} pilot runs", each.interval_runs));
     if (each.job.equilibrate != schema::Job{}.equilibrate)
       notes.push_back(fmt::format("equilibrate {:g}", each.job.equilibrate));
-    if (each.job.effects != schema::Job{}.effects) notes.push_back(each.job.effects);
+    if (!each.job.effects.none()) notes.push_back(each.job.effects.text());
     table.add({describe(each.quantity), e_text(each.job), number_text(each.job.n),
                count_text(each.job.particles),
                count_text(static_cast<long long>(each.realizations)),
@@ -147,7 +147,7 @@ std::vector<Quantity> quantities_in(const Assessment& assessment) {
 // What sets two gases apart that started from the same states.
 std::string apart(const Difference& each) {
   const auto text = [&](const schema::Job& job) {
-    return each.job.e != each.reference.e ? "e " + e_text(job) : job.effects;
+    return each.job.e != each.reference.e ? "e " + e_text(job) : job.effects.text();
   };
   return fmt::format("{}, not {}", text(each.job), text(each.reference));
 }

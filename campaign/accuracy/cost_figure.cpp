@@ -202,7 +202,7 @@ Panel panel_of(const Assessment& assessment, const Members& members, const Inks&
 // What a gas is besides its n and e: gases that differ in it alone are different pictures.
 std::string other_properties(const schema::Job& job) {
   std::string text = job.d == 2 ? "disks" : "";
-  if (job.effects != schema::Job{}.effects) text += (text.empty() ? "" : ", ") + job.effects;
+  if (!job.effects.none()) text += (text.empty() ? "" : ", ") + job.effects.text();
   return text;
 }
 

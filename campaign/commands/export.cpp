@@ -49,7 +49,7 @@ std::string head(const engine::State& state, const schema::JobRow& row) {
       "job_id={}{} n={} seed={} tau={} Time={} effects=\"{}\"\n",
       state.particles(), cell(state), spins_of(state) ? ":angular_velocity:R:3" : "", row.job_id,
       row.job.e ? fmt::format(" e={}", *row.job.e) : "", row.job.n, row.job.seed, tau, state.time,
-      quoted(row.job.effects));
+      quoted(row.job.effects.text()));
 }
 
 std::vector<std::size_t> places_by_id(const engine::State& state) {

@@ -302,8 +302,7 @@ std::vector<PlacedLine> theory_of_gases(const Topic& topic, const GasCurve& curv
 
 bool is_dear(const GasCurve& curve) {
   return std::ranges::any_of(curve.gases, [](const Gas& gas) {
-    return gas.job.effects.find("thermostat") != std::string::npos ||
-           gas.job.effects.find("restitution") != std::string::npos;
+    return gas.job.effects.contains("thermostat") || gas.job.effects.contains("restitution");
   });
 }
 

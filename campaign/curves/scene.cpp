@@ -1,7 +1,6 @@
 #include "campaign/curves/scene.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "campaign/base/number_text.hpp"
 
@@ -42,11 +41,10 @@ Scene scene_of(const schema::Job& job) {
   add("N", static_cast<double>(job.particles));
   add("equilibrate", job.equilibrate);
   add("sample_every", job.sample_every);
-  const auto effects = nlohmann::json::parse(job.effects);
-  for (const auto& [effect, asked] : effects.items())
-    for (const auto& [key, value] : asked.items())
-      add(effect + "." + key, value.is_string() ? ParameterValue(value.get<std::string>())
-                                                : ParameterValue(value.get<double>()));
+  for (const auto& [effect, parameters] : job.effects.by_name()) {
+    if (effect == "restitution") add("restitution.law", job.effects.law());
+    for (const auto& [name, value] : parameters) add(effect + "." + name, value);
+  }
   return scene;
 }
 

@@ -2,29 +2,29 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace haff::campaign {
 namespace {
 
-using nlohmann::json;
-
-double number(const json& effect, const std::string& name, const char* key) {
-  if (!effect.contains(key) || !effect[key].is_number())
-    throw TheoryError(fmt::format("--effects: {} needs a number {}", name, key));
-  return effect[key];
+double number(const schema::Effects& effects, const std::string& effect, const char* name,
+              const std::string& of) {
+  const auto value = effects.parameter(effect, name);
+  if (!value) throw TheoryError(fmt::format("--effects: {} needs a number {}", of, name));
+  return *value;
 }
 
-double positive(const json& effect, const std::string& name, const char* key) {
-  const double value = number(effect, name, key);
+double positive(const schema::Effects& effects, const std::string& effect, const char* name,
+                const std::string& of) {
+  const double value = number(effects, effect, name, of);
   if (!(value > 0))
-    throw TheoryError(fmt::format("--effects: {} needs a number {} above 0", name, key));
+    throw TheoryError(fmt::format("--effects: {} needs a number {} above 0", of, name));
   return value;
 }
 
-analysis::Restitution law_of(const json& restitution, double e) {
-  const std::string law = restitution.value("law", "constant");
-  const auto of = [&](const char* key) { return positive(restitution, law, key); };
+analysis::Restitution law_of(const schema::Effects& effects, double e) {
+  const std::string& law = effects.law();
+  const auto of = [&](const char* name) { return positive(effects, "restitution", name, law); };
   if (law == "constant") return analysis::ConstantRestitution{e};
   if (law == "threshold") return analysis::ThresholdRestitution{e, of("speed")};
   if (law == "tc") return analysis::ContactDurationRestitution{e, of("t_c")};
@@ -36,31 +36,45 @@ analysis::Restitution law_of(const json& restitution, double e) {
 }  // namespace
 
 void add_effects(const std::string& text, TheoryPoint& at) {
-  const json effects = json::parse(text, nullptr, false);
-  if (!effects.is_object())
+  schema::Effects effects;
+  try {
+    effects = text;
+  } catch (const std::invalid_argument& wrong) {
     throw TheoryError(
-        "--effects: expected a JSON object as in a grid, e.g. "
-        "'{\"restitution\": {\"law\": \"viscoelastic\", \"A\": 0.05}}'");
-  for (const auto& [name, effect] : effects.items()) {
+        fmt::format("--effects: {}; expected a JSON object as in a grid, e.g. "
+                    "'{{\"restitution\": {{\"law\": \"viscoelastic\", \"A\": 0.05}}}}'",
+                    wrong.what()));
+  }
+  add_effects(effects, at);
+}
+
+void add_effects(const schema::Effects& effects, TheoryPoint& at) {
+  const auto number_of = [&](const std::string& effect, const char* name) {
+    return number(effects, effect, name, effect);
+  };
+  const auto positive_of = [&](const std::string& effect, const char* name) {
+    return positive(effects, effect, name, effect);
+  };
+  for (const auto& each : effects.by_name()) {
+    const std::string& name = each.first;
     if (name == "restitution") {
-      at.gas.law = law_of(effect, at.e);
-      at.other_law = at.other_law || effect.value("law", "constant") != "constant";
+      at.gas.law = law_of(effects, at.e);
+      at.other_law = at.other_law || effects.law() != "constant";
     } else if (name == "thermostat") {
-      at.gas.heating = positive(effect, name, "rate");
+      at.gas.heating = positive_of(name, "rate");
       at.other_law = true;
     } else if (name == "shuffle") {
       at.is_shuffled = true;
     } else if (name == "roughness") {
       at.roughness = analysis::Roughness{
-          .beta = number(effect, name, "beta"), .q = positive(effect, name, "q"), .d = at.d};
+          .beta = number_of(name, "beta"), .q = positive_of(name, "q"), .d = at.d};
     } else if (name == "mixture") {
-      at.mixture =
-          analysis::BinaryMixture{.e = at.e,
-                                  .n = at.n,
-                                  .fraction = number(effect, name, "fraction"),
-                                  .diameter_ratio = positive(effect, name, "diameter_ratio"),
-                                  .mass_ratio = positive(effect, name, "mass_ratio"),
-                                  .d = at.d};
+      at.mixture = analysis::BinaryMixture{.e = at.e,
+                                           .n = at.n,
+                                           .fraction = number_of(name, "fraction"),
+                                           .diameter_ratio = positive_of(name, "diameter_ratio"),
+                                           .mass_ratio = positive_of(name, "mass_ratio"),
+                                           .d = at.d};
     } else {
       throw TheoryError(fmt::format(
           "--effects: no theory here treats {}; known are restitution, thermostat, shuffle, "

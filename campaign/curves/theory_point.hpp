@@ -16,7 +16,8 @@ struct TheoryError : std::runtime_error {
 
 // Adds effects, a JSON object as in a grid without lists, to a point whose d, e and n are known.
 // Throws TheoryError for those that no theory here treats.
-void add_effects(const std::string& effects, TheoryPoint& at);
+void add_effects(const schema::Effects& effects, TheoryPoint& at);
+void add_effects(const std::string& json, TheoryPoint& at);
 
 // The point of a job's gas. Likewise.
 TheoryPoint theory_point(const schema::Job& job);

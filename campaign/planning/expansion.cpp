@@ -35,7 +35,7 @@ void for_each_job(const schema::SubGrid& grid, Visit&& visit) {
         for (const std::uint32_t particles : grid.particles)
           for (const double equilibrate : grid.equilibrate)
             for (const double sample_every : grid.sample_every)
-              for (const std::string& effects : grid.effects)
+              for (const schema::Effects& effects : grid.effects)
                 for (const std::uint64_t seed : grid.seeds) {
                   schema::Job job;
                   job.kind = schema::Kind::cooling;

@@ -38,7 +38,7 @@ class Forecast {
   // By what makes a job fast or slow.
   std::map<std::string, Work> known_;
   std::map<std::string, Prices> tried_;
-  std::map<std::tuple<int, double, std::string>, Sizes> sizes_;  // by d, n, effects
+  std::map<std::tuple<int, double, schema::Effects>, Sizes> sizes_;  // by d, n, effects
   bool used_store_ = false;
 };
 

@@ -27,7 +27,7 @@ ordered_json physics_json(const schema::Job& job) {
           {"particles", job.particles},
           {"equilibrate", job.equilibrate},
           {"sample_every", job.sample_every},
-          {"effects", ordered_json::parse(job.effects)}};
+          {"effects", ordered_json::parse(job.effects.text())}};
 }
 
 ordered_json running_json(const schema::RunningJob& job) {

@@ -39,7 +39,7 @@ ordered_json cost_json(const std::vector<schema::JobRow>& jobs) {
   std::map<std::tuple<schema::Kind, int, double, std::uint32_t, double, std::string>, Cost> costs;
   for (const schema::JobRow& row : jobs) {
     Cost& cost = costs[{row.job.kind, row.job.d, row.job.n, row.job.particles,
-                        row.job.e.value_or(NAN), row.job.effects}];
+                        row.job.e.value_or(NAN), row.job.effects.text()}];
     const double expected = row.expected_cpu_seconds.value_or(0);
     ++cost.jobs;
     cost.expected += expected;

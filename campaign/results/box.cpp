@@ -25,7 +25,7 @@ double growth_rate(const analysis::Gas& gas, double k) {
 }  // namespace
 
 std::optional<BoxReport> box_report(const schema::Job& job) {
-  if (job.kind != schema::Kind::cooling || !job.e || *job.e >= 1 || job.effects != "{}")
+  if (job.kind != schema::Kind::cooling || !job.e || *job.e >= 1 || !job.effects.none())
     return std::nullopt;
   const analysis::Gas gas{.e = *job.e, .n = job.n, .d = job.d};
   constexpr double full = 2 * std::numbers::pi;

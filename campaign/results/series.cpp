@@ -72,7 +72,7 @@ class Rest {
             {"observables", schema::observables_text(job.observables)},
             {"profiles_every", job.profiles_every ? number_text(*job.profiles_every) : "none"},
             {"fields_at", fields_at(job)},
-            {"effects", job.effects}};
+            {"effects", job.effects.text()}};
   }
 
   std::map<std::string, std::set<std::string>> values_;

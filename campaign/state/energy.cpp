@@ -21,11 +21,8 @@ constexpr double most_heat = 100;
 
 // The most energy that a gas can have had put in until then, as total_energy() counts. [E(0)]
 double energy_put_in(const engine::State& state, const schema::Job& job) {
-  const engine::Model model = model_of(job);
-  const auto thermostat = model.effects.find("thermostat");
-  const double heat = thermostat == model.effects.end()
-                          ? 0
-                          : most_heat * thermostat->second.at("rate") * state.time;
+  const double heat =
+      most_heat * job.effects.parameter("thermostat", "rate").value_or(0) * state.time;
   return 2.0 / job.d * (1 + elastic_drift + heat);
 }
 
@@ -44,19 +41,17 @@ double total_energy(const engine::State& state, const schema::Job& job) {
     const auto& v = state.velocity[i];
     sum += mass_of(state.id[i]) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
-  const engine::Model model = model_of(job);
-  const auto roughness = model.effects.find("roughness");
+  const auto q = job.effects.parameter("roughness", "q");
   const auto spin = state.memory.find("spin");
-  if (roughness != model.effects.end() && spin != state.memory.end())
+  if (q && spin != state.memory.end())
     for (std::size_t i = 0; i < spin->second.size(); ++i)
-      sum += mass_of(static_cast<std::uint32_t>(i / 3)) * roughness->second.at("q") *
-             spin->second[i] * spin->second[i];
+      sum += mass_of(static_cast<std::uint32_t>(i / 3)) * *q * spin->second[i] * spin->second[i];
   const double components = static_cast<double>(job.d) * state.particles();
   return std::ldexp(sum / components, -2 * state.exponent);
 }
 
 bool is_heated(const schema::Job& job) {
-  return job.effects.find("\"thermostat\"") != std::string::npos;
+  return job.effects.contains("thermostat");
 }
 
 std::optional<std::string> energy_contradiction(const engine::State& state, const schema::Job& job,

@@ -16,7 +16,7 @@ Grid parse(const std::string& effects) {
       "g.json", {.bytes = 8e9, .bytes_per_particle = 200});
 }
 
-std::vector<std::string> effects(const std::string& text) {
+std::vector<Effects> effects(const std::string& text) {
   return parse(text).grids.at(0).effects;
 }
 
@@ -29,7 +29,7 @@ std::string complaint(const std::string& text) {
   return "no complaint";
 }
 
-using Texts = std::vector<std::string>;
+using Texts = std::vector<Effects>;
 
 }  // namespace
 
@@ -270,4 +270,40 @@ TEST_CASE("effects: a mixture equilibrates as one, rough spheres as smooth ones"
   CHECK(equilibration_of(job).effects == job.effects);
   job.effects = R"({"roughness":{"beta":0.5,"q":0.4}})";
   CHECK(equilibration_of(job).effects == "{}");
+}
+
+TEST_CASE("effects: one text is parsed once, into numbers by name") {
+  const Effects effects(R"({ "roughness": {"q": 0.4, "beta": 0.5},
+                             "restitution": {"t_c": 1e-3, "law": "tc"} })");
+  CHECK(effects.text() ==
+        R"({"restitution":{"law":"tc","t_c":0.001},"roughness":{"beta":0.5,"q":0.4}})");
+  CHECK(effects.law() == "tc");
+  CHECK(effects.parameter("restitution", "t_c") == 1e-3);
+  CHECK(effects.parameter("roughness", "q") == 0.4);
+  CHECK_FALSE(effects.parameter("roughness", "mass"));
+  CHECK_FALSE(effects.parameter("mixture", "q"));
+  CHECK(effects.contains("roughness"));
+  CHECK_FALSE(effects.none());
+  CHECK(Effects(effects.text()) == effects);
+  CHECK(Effects().text() == "{}");
+  CHECK(Effects() == Effects("{}"));
+  CHECK(Effects().law() == "constant");
+  CHECK(Effects().none());
+}
+
+TEST_CASE("effects: what is no object of objects of numbers is refused by name") {
+  const auto complaint_about = [](const char* json) -> std::string {
+    try {
+      return Effects(json).text();
+    } catch (const std::invalid_argument& wrong) {
+      return wrong.what();
+    }
+  };
+  CHECK(complaint_about("shuffle") == "not a JSON object of effects: shuffle");
+  CHECK(complaint_about("[]") == "not a JSON object of effects: []");
+  CHECK(complaint_about(R"({"shuffle":1})") ==
+        "the effect shuffle is no JSON object of parameters: 1");
+  CHECK(complaint_about(R"({"shuffle":{"every":"1"}})") ==
+        R"(the parameter every of the effect shuffle is no number: "1")");
+  CHECK(complaint_about(R"({"restitution":{"law":2}})") == "the law of restitution is no name: 2");
 }
