@@ -64,7 +64,6 @@ struct Windows {
   // Events of windows that were not repaired, by the phase in which they were processed.
   std::int64_t in_slabs = 0;
   std::int64_t in_zones = 0;
-  std::int64_t in_box = 0;
   // The events of the busiest thread in every phase of a window, summed.
   std::int64_t longest = 0;
 };

@@ -79,8 +79,8 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
           ->capture_default_str();
   command
       ->add_option("--threads", options.threads,
-                   "Threads of each worker; every number gives the same rows, and so far two are "
-                   "no faster than one")
+                   "Threads of each worker; every number gives the same rows. Two make a gas of "
+                   "500000 particles or more 1.5 times as fast; seeds side by side gain more")
       ->check(CLI::Range(1, most_threads))
       ->type_name("T")
       ->capture_default_str();

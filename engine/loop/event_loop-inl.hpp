@@ -123,7 +123,8 @@ class EventLoop {
     Event& event = gas_.queue[p];
     const Exit exit = search_.exit(p, event.cell, now_);
     event.time = std::min(event.contact_time, exit.time);
-    event.face = choose(event.contact_time <= exit.time, Event::contact, exit.face);
+    event.face = static_cast<std::uint8_t>(
+        choose(event.contact_time <= exit.time, Event::contact, exit.face));
     gas_.queue.schedule(p);
   }
 

@@ -9,21 +9,19 @@
 
 namespace haff::engine {
 
-// The phases of a window, in their order.
-enum class Phase : std::uint8_t { slab, zone, box };
-inline constexpr std::size_t phases = 3;
+inline constexpr float never_marked = -1;
 
 struct Division {
   explicit Division(unsigned count) : regions(count) {}
 
   unsigned regions;
   Slabs slabs;
-  // The region in whose queue a particle's event is: that of the slab in which the particle is. It
-  // changes in zones and the box only.
-  std::vector<std::uint8_t> owner;
-  // For each brick, the time of the last event of a particle in it, as the bits of a double, plus a
-  // little in early phases (RegionLoop::slack). The highest bit says that the brick is frozen.
-  HugeVector<std::uint64_t> marks;
+  // For each brick: the time of the last event of a particle in it, rounded, if the brick is within
+  // the reach of a zone.
+  HugeVector<float> marks;
+  // For each brick, the cells in it that an event which waits for the zones may read, one bit each:
+  // what comes near them has to wait, too.
+  std::vector<std::uint8_t> frozen;
 };
 
 }  // namespace haff::engine

@@ -1,9 +1,9 @@
 // The event loop of several threads: the same events, and the same bits, as that of one.
 //
 // Time is cut into windows, in each of which one event in a few hundred happens to a particle. In a
-// window, every thread works off the events inside its slab of the box, then those around the
-// border below it, and one thread does what is left (region_loop-inl.hpp). If two events were
-// processed in the wrong order, the window is undone and worked off in one piece.
+// window, every thread works off the events inside its slab of the box (slab_loop-inl.hpp), then
+// those around the border below it (zone_loop-inl.hpp). If two events were processed in the wrong
+// order, the window is undone and worked off in one piece (one_piece_loop-inl.hpp).
 //
 // What collisions add to sums is added up after the window, in the order of time, as one thread
 // does it. A run stops at an exact number of collisions: the last few hundred events before it are
@@ -22,8 +22,10 @@
 #include <memory>
 #include <vector>
 
-#include "engine/parallel/region_loop-inl.hpp"
+#include "engine/parallel/one_piece_loop-inl.hpp"
+#include "engine/parallel/slab_loop-inl.hpp"
 #include "engine/parallel/team.hpp"
+#include "engine/parallel/zone_loop-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
@@ -38,24 +40,34 @@ class ParallelLoop {
         team_(std::clamp(threads.count, 1u, division_.regions)),
         adapts_(threads.window <= 0),
         window_(adapts_ ? first_window : threads.window) {
-    division_.owner.resize(gas.particles.size());
     division_.marks.resize(gas.bricks.count());
-    for (unsigned k = 0; k < division_.regions; ++k)
-      regions_.push_back(std::make_unique<Region>(gas, physics, division_, k));
+    division_.frozen.resize(gas.bricks.count());
+    for (unsigned k = 0; k < division_.regions; ++k) {
+      regions_.push_back(std::make_unique<AnyRegion>(gas, division_, k));
+      slabs_.push_back(std::make_unique<OfSlab>(gas, physics, *regions_[k]));
+      zones_.push_back(std::make_unique<OfZone>(gas, physics, *regions_[k]));
+    }
+    alone_ = std::make_unique<Alone>(gas, physics, *regions_[0]);
   }
 
   // Finds the first event of every particle, after a synchronization.
   void predict_all() {
-    const std::span<const Event> events(&gas_.queue[0], gas_.particles.size());
-    division_.slabs.divide(gas_.bricks, events, division_.regions);
-    for (std::size_t p = 0; p < events.size(); ++p)
-      division_.owner[p] = static_cast<std::uint8_t>(
-          division_.slabs.slab_of_layer(gas_.bricks.layer_of(events[p].cell)));
-    std::fill(division_.marks.begin(), division_.marks.end(), 0);
+    const auto count = static_cast<std::uint32_t>(gas_.particles.size());
+    const auto part = [&](unsigned k) {
+      return static_cast<std::uint32_t>(std::uint64_t{count} * k / division_.regions);
+    };
+    for_each_region([&](unsigned k) { slabs_[k]->predict(part(k), part(k + 1)); });
+    divide();
+    std::fill(division_.marks.begin(), division_.marks.end(), never_marked);
     const double rate = events_per_time(gas_) / division_.regions;
-    for_each_region([&](Region& region) { region.begin_period(rate); });
-    rate_ = 0.5 * synchronization_period * static_cast<double>(gas_.particles.size()) /
-            expected_period(gas_);
+    for_each_region([&](unsigned k) {
+      AnyRegion& region = *regions_[k];
+      region.queue.restart(rate, prefetching ? foresight : 0);
+      for (auto& box : region.outbox) box.clear();
+      for (std::uint32_t p = 0; p < count; ++p)
+        if (gas_.queue[p].owner == k) region.queue.schedule(p);
+    });
+    rate_ = 0.5 * synchronization_period * count / expected_period(gas_);
   }
 
   // As EventLoop::run().
@@ -64,11 +76,12 @@ class ParallelLoop {
       const auto left = static_cast<double>(collisions - gas_.clock.collisions);
       // With this margin, a window has more collisions than are left once in 1e9 times.
       const double most = left - 6 * std::sqrt(left);
-      const double window =
-          std::max(window_ * static_cast<double>(gas_.particles.size()), fewest_collisions);
+      const double window = std::max(window_ * static_cast<double>(gas_.particles.size()),
+                                     adapts_ ? fewest_collisions : 1);
       const double until = gas_.clock.now + std::min(window, most) / rate_;
       if (most < fewest_collisions || until >= end) {
         const double piece = std::min(end, gas_.clock.now + 1.2 * (left + 10) / rate_);
+        alone_->begin(std::nextafter(piece, never));
         if (!work_in_one_piece(std::nextafter(piece, never), collisions, end)) return;
       } else if (!work_window(until, collisions, end)) {
         return;
@@ -78,48 +91,71 @@ class ParallelLoop {
 
   const Windows& windows() const { return windows_; }
   std::size_t memory() const {
-    std::size_t bytes = division_.owner.size() + division_.marks.size() * sizeof(std::uint64_t);
+    std::size_t bytes = division_.frozen.size() + division_.marks.size() * sizeof(float);
     for (const auto& region : regions_) bytes += region->memory();
-    return bytes + (sorted_.capacity() + merged_.capacity()) * sizeof(CollisionRecord);
+    return bytes + (merged_.capacity() + other_.capacity()) * sizeof(CollisionRecord);
   }
 
  private:
-  using Region = RegionLoop<Search, Physics, dimension, prefetching>;
+  using AnyRegion = Region<typename Physics::Memento>;
+  using Alone = OnePieceLoop<Search, Physics, prefetching>;
+  using OfSlab = SlabLoop<Search, Physics, dimension, prefetching>;
+  using OfZone = ZoneLoop<Search, Physics, dimension, prefetching>;
 
   // Collisions per particle in a window, to begin with, and at most.
-  static constexpr double first_window = 0.005;
+  static constexpr double first_window = 0.003;
   static constexpr double longest_window = 0.02;
   // Fewer collisions are not worth a window.
-  static constexpr double fewest_collisions = 100;
+  static constexpr double fewest_collisions = 50;
+  // A window that has to be repaired is followed by shorter ones, and others by longer ones, so
+  // that a few in a thousand have to be.
+  static constexpr double after_repair = 0.8;
+  static constexpr double after_success = 1.0004;
+
+  // The slabs for the period to come. The work in a layer is the number of its particles that soon
+  // have an event.
+  void divide() {
+    const double soon = 0.02 * expected_period(gas_);
+    std::vector<std::uint32_t> work(gas_.bricks.layers());
+    for (std::uint32_t p = 0; p < gas_.particles.size(); ++p)
+      if (gas_.queue[p].time < soon) ++work[gas_.bricks.layer_of(gas_.queue[p].cell)];
+    division_.slabs.divide(gas_.bricks, work, division_.regions);
+    for (std::uint32_t p = 0; p < gas_.particles.size(); ++p) {
+      Event& event = gas_.queue[p];
+      event.owner = static_cast<std::uint8_t>(
+          division_.slabs.slab_of_layer(gas_.bricks.layer_of(event.cell)));
+    }
+  }
 
   // Returns false if the run is over.
   bool work_window(double end, std::int64_t collisions, double last) {
     const double begin = gas_.clock.now;
     ++windows_.count;
-    for_each_region([&](Region& region) {
-      region.begin_window(begin, end);
-      region.work_slab(regions_);
+    team_.run([&](unsigned thread) {
+      for (unsigned k = thread; k < division_.regions; k += team_.size()) {
+        regions_[k]->begin_window();
+        regions_[k]->take_mail(regions_);
+        slabs_[k]->work(begin, end);
+      }
+      team_.wait_for_all();
+      if (is_violated_in(Phase::slab)) return;
+      for (unsigned k = thread; k < division_.regions; k += team_.size()) {
+        zones_[k]->work(regions_, begin, end);
+        merge(regions_[k]->in(Phase::slab).collisions, regions_[k]->in(Phase::zone).collisions,
+              regions_[k]->ordered);
+      }
     });
-    bool violated = is_violated();
-    if (!violated) {
-      for_each_region([&](Region& region) { region.work_zone(regions_); });
-      violated = is_violated();
-    }
-    if (!violated) {
-      regions_[0]->work_box(regions_);
-      violated = is_violated();
-    }
+    const bool violated = is_violated_in(Phase::slab) || is_violated_in(Phase::zone);
     std::int64_t done = 0;
-    for (const auto& region : regions_) done += region->events().collisions;
+    for (const auto& region : regions_)
+      for (const auto& phase : region->done) done += phase.events.collisions;
     if (violated || gas_.clock.collisions + done >= collisions) {
-      if (violated) adapt(0.7);
+      if (violated) adapt(after_repair);
       ++windows_.repaired;
-      undo();
-      regions_[0]->prepare_to_redo(end);
-      for (const auto& region : regions_) region->return_events(*regions_[0]);
+      undo(end);
       return work_in_one_piece(end, collisions, last);
     }
-    adapt(1.003);
+    adapt(after_success);
     keep();
     rate_ = 0.5 * (rate_ + static_cast<double>(done) / (end - begin));
     gas_.clock.now = end;
@@ -129,7 +165,7 @@ class ParallelLoop {
   bool work_in_one_piece(double end, std::int64_t collisions, double last) {
     const double begin = gas_.clock.now;
     const std::int64_t before = gas_.clock.collisions;
-    const bool goes_on = regions_[0]->work_in_one_piece(regions_, end, collisions, last);
+    const bool goes_on = alone_->work(regions_, collisions, last);
     const auto done = static_cast<double>(gas_.clock.collisions - before);
     windows_.in_one_piece += gas_.clock.collisions - before;
     if (!goes_on) return false;
@@ -145,8 +181,13 @@ class ParallelLoop {
 
   // No event comes before `last`.
   bool stop_at(double last) {
-    const bool any = std::any_of(regions_.begin(), regions_.end(),
-                                 [](const auto& region) { return region->has_events(); });
+    bool any = false;
+    for (const auto& region : regions_) {
+      region->take_mail(regions_);
+      if (region->queue.next([](std::uint32_t) { return 0; }) == LadderQueue::nothing) continue;
+      region->queue.put_back();
+      any = true;
+    }
     if (!any) throw PhysicsError("no particle will ever meet another again");
     gas_.clock.now = last;
     return false;
@@ -155,18 +196,35 @@ class ParallelLoop {
   template <class Job>
   void for_each_region(const Job& job) {
     team_.run([&](unsigned thread) {
-      for (unsigned k = thread; k < division_.regions; k += team_.size()) job(*regions_[k]);
+      for (unsigned k = thread; k < division_.regions; k += team_.size()) job(k);
     });
   }
 
-  bool is_violated() const {
+  bool is_violated_in(Phase phase) const {
     return std::any_of(regions_.begin(), regions_.end(),
-                       [](const auto& region) { return region->violated(); });
+                       [phase](const auto& region) { return region->in(phase).violated; });
   }
 
-  void undo() {
-    for (const Phase phase : {Phase::box, Phase::zone, Phase::slab})
-      for (const auto& region : regions_) region->undo(phase);
+  // Takes back all that happened in the window, which ends at `end`, and gives its events to one
+  // thread.
+  void undo(double end) {
+    for (const Phase phase : {Phase::zone, Phase::slab})
+      for (const auto& region : regions_)
+        region->in(phase).log.undo(
+            [this](std::uint32_t p, const Event& before) {
+              Event& event = gas_.queue[p];
+              if (event.cell != before.cell) gas_.bricks.move(p, event.cell, before.cell);
+              event = before;
+            },
+            [this](std::uint32_t p, const Particle& before) { gas_.particles[p] = before; },
+            [this](const typename Physics::Memento& before) { physics_.restore(before); });
+    alone_->begin(end);
+    for (const auto& region : regions_) {
+      for (const auto& phase : region->done)
+        phase.log.for_each_particle([this](std::uint32_t p) { alone_->take(p); });
+      for (const auto& list : region->deferred)
+        for (const auto& entry : list) alone_->take(entry.particle);
+    }
   }
 
   void adapt(double factor) {
@@ -174,64 +232,55 @@ class ParallelLoop {
   }
 
   void count_events() {
-    std::int64_t longest_slab = 0, longest_zone = 0;
-    for (const auto& region : regions_) {
-      longest_slab = std::max(longest_slab, region->events_in(Phase::slab));
-      longest_zone = std::max(longest_zone, region->events_in(Phase::zone));
-      windows_.in_slabs += region->events_in(Phase::slab);
-      windows_.in_zones += region->events_in(Phase::zone);
-    }
-    const std::int64_t in_box = regions_[0]->events_in(Phase::box);
-    windows_.in_box += in_box;
-    windows_.longest += longest_slab + longest_zone + in_box;
-  }
-
-  // All collisions of the window in the order of time, in sorted_.
-  void sort_collisions() {
-    std::vector<std::vector<CollisionRecord>*> lists;
-    for (const Phase phase : {Phase::slab, Phase::zone, Phase::box})
-      for (const auto& region : regions_)
-        if (auto& list = region->collisions_in(phase); !list.empty()) lists.push_back(&list);
-    // The shortest first.
-    sorted_.clear();
-    std::sort(lists.begin(), lists.end(),
-              [](const auto* a, const auto* b) { return a->size() < b->size(); });
-    for (auto* list : lists) {
-      merged_.resize(sorted_.size() + list->size());
-      std::merge(sorted_.begin(), sorted_.end(), list->begin(), list->end(), merged_.begin(),
-                 [](const auto& a, const auto& b) { return engine::comes_before(a, b); });
-      sorted_.swap(merged_);
+    for (const Phase phase : {Phase::slab, Phase::zone}) {
+      std::int64_t longest = 0;
+      for (const auto& region : regions_) {
+        const Events& events = region->in(phase).events;
+        const std::int64_t count = events.collisions + events.crossings + events.stale;
+        longest = std::max(longest, count);
+        (phase == Phase::slab ? windows_.in_slabs : windows_.in_zones) += count;
+        gas_.events.collisions += events.collisions;
+        gas_.events.crossings += events.crossings;
+        gas_.events.stale += events.stale;
+        gas_.clock.collisions += events.collisions;
+      }
+      windows_.longest += longest;
     }
   }
 
   // What the window has changed beside the particles.
   void keep() {
-    for (const auto& region : regions_) {
-      gas_.events.collisions += region->events().collisions;
-      gas_.events.crossings += region->events().crossings;
-      gas_.events.stale += region->events().stale;
-      gas_.clock.collisions += region->events().collisions;
-      gas_.clock.invariants.closest2 = std::min(gas_.clock.invariants.closest2, region->closest2());
-    }
     count_events();
-    sort_collisions();
-    for (const CollisionRecord& collision : sorted_) {
-      gas_.clock.tally.virial += collision.virial;
-      gas_.clock.tally.dissipated += collision.dissipated[0];
-      gas_.clock.tally.dissipated += collision.dissipated[1];
+    for (const auto& region : regions_)
+      gas_.clock.invariants.closest2 = std::min(gas_.clock.invariants.closest2, region->closest2);
+    const std::vector<CollisionRecord>* all = &regions_[0]->ordered;
+    for (unsigned k = 1; k + 1 < division_.regions; ++k) {
+      merge(*all, regions_[k]->ordered, other_);
+      merged_.swap(other_);
+      all = &merged_;
     }
+    Tally tally = gas_.clock.tally;
+    visit_in_order(*all, regions_.back()->ordered, [&tally](const CollisionRecord& collision) {
+      tally.virial += collision.virial;
+      tally.dissipated += collision.dissipated[0];
+      tally.dissipated += collision.dissipated[1];
+    });
+    gas_.clock.tally = tally;
   }
 
   Gas& gas_;
   Physics& physics_;
   Division division_;
   Team team_;
-  std::vector<std::unique_ptr<Region>> regions_;
+  std::vector<std::unique_ptr<AnyRegion>> regions_;
+  std::vector<std::unique_ptr<OfSlab>> slabs_;
+  std::vector<std::unique_ptr<OfZone>> zones_;
+  std::unique_ptr<Alone> alone_;
   bool adapts_;
   double window_;    // collisions per particle
   double rate_ = 0;  // collisions per unit of time
   Windows windows_;
-  std::vector<CollisionRecord> sorted_, merged_;
+  std::vector<CollisionRecord> merged_, other_;
 };
 
 }  // namespace haff::engine::HWY_NAMESPACE

@@ -1,7 +1,15 @@
 // How the box is divided among threads: slabs of whole layers of bricks, and zones around the
 // borders between them.
+//
+// An event reads the cells next to those of its particles and changes only these. In a slab, events
+// are processed from the third layer of cells on, counted from the border: an event at the border,
+// in another slab or in this one, then reads no cell that an event in the slab changes at the same
+// time. What is left are the zones: an event belongs to one as long as it reads no cell that is
+// farther from the border than `zone_cells`. Deeper inside a slab nothing can be disturbed by a
+// zone, and no event has to leave a mark there (region.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,37 +19,76 @@
 
 namespace haff::engine {
 
-// A range of layers that one thread may read, and the cells in it whose particles may have events
-// there. Such an event reads only bricks of the territory, and it writes neither to the first nor
-// to the last of its layers: so an event at a border reads nothing that an event inside could have
-// written.
-class Territory {
+class Slab {
  public:
-  Territory() = default;  // the whole box
-  Territory(const Bricks& bricks, std::uint32_t first_layer, std::uint32_t layers)
+  Slab() = default;
+  // `zone_cells`: of the zones at both of its borders.
+  Slab(const Bricks& bricks, std::uint32_t first_layer, std::uint32_t layers,
+       std::uint32_t zone_cells)
       : axis_(bricks.last_axis()),
         cells_(2 * bricks.layers()),
-        first_((2 * first_layer + 2) % cells_),
-        count_(2 * layers - 4),
-        first_layer_(first_layer),
-        layers_(layers) {}
+        first_(2 * first_layer),
+        own_(2 * layers),
+        zone_(zone_cells) {}
 
-  bool holds(Cell cell) const {
+  // Whether a particle in this cell may have events while other threads work in their slabs.
+  bool may_work_in(Cell cell) const { return is_inside(cell, border); }
+  // Whether the cell is out of the reach of zones.
+  bool is_deep(Cell cell) const { return is_inside(cell, zone_); }
+  // Whether a particle in this cell can have its events in a zone.
+  bool is_near_border(Cell cell) const { return !is_inside(cell, zone_ - 1); }
+  // Whether the cell, or the layer of cells above (next = 1) or below (-1) it, is in the slab.
+  bool holds(Cell cell, int next = 0) const {
+    return height(cell, static_cast<std::uint32_t>(next)) < own_;
+  }
+
+  // Whether so many layers of cells of the slab, or more, are on either side between the cell and
+  // the border.
+  bool is_inside(Cell cell, std::uint32_t layers) const {
+    return height(cell) - layers < own_ - std::min(2 * layers, own_);
+  }
+  // The number of these layers, on the side where it is smaller; zero outside of the slab.
+  std::uint32_t depth(Cell cell) const {
+    const std::uint32_t above = height(cell);
+    return above < own_ ? std::min(above, own_ - 1 - above) : 0;
+  }
+
+  static constexpr std::uint32_t border = 2;  // layers of cells that belong to zones only
+
+ private:
+  // Above the lower border, in cells; at least `own_` outside of the slab.
+  std::uint32_t height(Cell cell, std::uint32_t next = 0) const {
+    const std::uint32_t from_first = cell[axis_] + next - first_;
+    return from_first + (from_first >> 31) * cells_;
+  }
+  unsigned axis_ = 0;
+  std::uint32_t cells_ = 0;  // of the box
+  std::uint32_t first_ = 0;
+  std::uint32_t own_ = 0;
+  std::uint32_t zone_ = 0;
+};
+
+// The cells around the border below a slab.
+class Zone {
+ public:
+  Zone() = default;
+  Zone(const Bricks& bricks, std::uint32_t layer_above, std::uint32_t zone_cells)
+      : axis_(bricks.last_axis()),
+        cells_(2 * bricks.layers()),
+        first_((2 * layer_above + cells_ - (zone_cells - 1)) % cells_),
+        count_(2 * (zone_cells - 1)) {}
+
+  // Whether a particle in this cell may have events in the zone.
+  bool may_work_in(Cell cell) const {
     const std::uint32_t from_first = cell[axis_] - first_;
     return from_first + (from_first >> 31) * cells_ < count_;
-  }
-  bool holds_layer(std::uint32_t layer) const {
-    const std::uint32_t from_first = layer - first_layer_;
-    return from_first + (from_first >> 31) * (cells_ / 2) < layers_;
   }
 
  private:
   unsigned axis_ = 0;
   std::uint32_t cells_ = 0;
   std::uint32_t first_ = 0;
-  std::uint32_t count_ = 1024;
-  std::uint32_t first_layer_ = 0;
-  std::uint32_t layers_ = 512;
+  std::uint32_t count_ = 0;
 };
 
 class Slabs {
@@ -51,18 +98,18 @@ class Slabs {
   // The number of slabs that fit, at most `wanted`.
   static unsigned most(const Bricks& bricks, unsigned wanted);
 
-  // Divides the box so that every slab holds about the same number of particles. `events` say in
-  // which cells they are.
-  void divide(const Bricks& bricks, std::span<const Event> events, unsigned slabs);
+  // Divides the box so that every slab has about the same share of the work, which `work` gives for
+  // each layer.
+  void divide(const Bricks& bricks, std::span<const std::uint32_t> work, unsigned slabs);
 
-  const Territory& slab(unsigned k) const { return slabs_[k]; }
-  const Territory& zone(unsigned k) const { return zones_[k]; }  // between slabs k - 1 and k
+  const Slab& slab(unsigned k) const { return slabs_[k]; }
+  const Zone& zone(unsigned k) const { return zones_[k]; }  // between slabs k - 1 and k
   unsigned slab_of_layer(std::uint32_t layer) const { return slab_of_layer_[layer]; }
   unsigned zone_of_layer(std::uint32_t layer) const { return zone_of_layer_[layer]; }
 
  private:
-  std::vector<Territory> slabs_;
-  std::vector<Territory> zones_;
+  std::vector<Slab> slabs_;
+  std::vector<Zone> zones_;
   std::vector<std::uint8_t> slab_of_layer_;
   std::vector<std::uint8_t> zone_of_layer_;
 };

@@ -54,6 +54,17 @@ void Team::run(const std::function<void(unsigned)>& job) {
   }
 }
 
+void Team::wait_for_all() {
+  const std::uint32_t meeting = meetings_.load(std::memory_order_acquire);
+  if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == size_) {
+    arrived_.store(0, std::memory_order_relaxed);
+    meetings_.fetch_add(1, std::memory_order_release);
+    meetings_.notify_all();
+    return;
+  }
+  while (meetings_.load(std::memory_order_acquire) == meeting) wait_while(meetings_, meeting);
+}
+
 void Team::serve(unsigned number) {
   for (std::uint32_t seen = 0;; ++seen) {
     wait_while(jobs_, seen);

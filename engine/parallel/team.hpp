@@ -25,14 +25,18 @@ class Team {
   // Calls job(k) for every k = 0 ... size() - 1, each on its own thread, and returns when all of
   // them are done. A job must not throw.
   void run(const std::function<void(unsigned)>& job);
+  // Within a job: returns when every thread of the team has come here.
+  void wait_for_all();
 
  private:
   void serve(unsigned number);
 
   unsigned size_;
   const std::function<void(unsigned)>* job_ = nullptr;
-  std::atomic<std::uint32_t> jobs_ = 0;  // begun so far
-  std::atomic<std::uint32_t> busy_ = 0;  // threads that have not finished the present one
+  std::atomic<std::uint32_t> jobs_ = 0;      // begun so far
+  std::atomic<std::uint32_t> busy_ = 0;      // threads that have not finished the present one
+  std::atomic<std::uint32_t> arrived_ = 0;   // threads that wait for all
+  std::atomic<std::uint32_t> meetings_ = 0;  // of all threads, so far
   std::atomic<bool> stop_ = false;
   std::vector<std::thread> threads_;
 };

@@ -1,9 +1,8 @@
-// What a thread has done within a window: to undo it, and to add up what collisions did in the
-// order of their times.
+// The records and events before a thread changed them within a window, to undo it.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "engine/particles/particle.hpp"
@@ -11,78 +10,80 @@
 
 namespace haff::engine {
 
-// Stands in for the clock while a collision happens, and keeps every term that it adds to a sum.
-struct CollisionTerms {
-  template <int most>
-  struct Terms {
-    void operator+=(double term) { value[count++] = term; }
-    void operator-=(double term) { value[count++] = -term; }
-    double value[most] = {};
-    unsigned count = 0;
-  };
-  struct {
-    Terms<2> dissipated;
-    Terms<1> virial;
-  } tally;
-  struct {
-    double closest2 = 1;
-  } invariants;
+// A list that is emptied and filled again and again. Adding to it is a store and a comparison; that
+// of std::vector is a call, which takes 2 % of the time of a window.
+template <class T>
+class Tape {
+ public:
+  [[gnu::always_inline]] void add(const T& item) {
+    if (count_ == room_.size()) [[unlikely]]
+      room_.resize(2 * count_ + 64);
+    room_.data()[count_++] = item;
+  }
+  void clear() { count_ = 0; }
+
+  std::size_t size() const { return count_; }
+  const T* begin() const { return room_.data(); }
+  const T* end() const { return room_.data() + count_; }
+  std::size_t memory() const { return room_.capacity() * sizeof(T); }
+
+ private:
+  std::vector<T> room_;
+  std::size_t count_ = 0;
 };
 
-// The terms of one collision.
-struct CollisionRecord {
-  double time;
-  std::uint64_t rank;  // among collisions of exactly the same time
-  double virial;
-  double dissipated[2];  // the second one for rough particles only
-};
-
-inline bool comes_before(const CollisionRecord& one, const CollisionRecord& other) {
-  return one.time != other.time ? one.time < other.time : one.rank < other.rank;
-}
-
-// The records and events before they were changed, in the order of the changes.
+// `Memento`: what a collision changes beside the records.
 template <class Memento>
 class UndoLog {
  public:
   void clear() {
     events_.clear();
     records_.clear();
+    changed_.clear();
     mementos_.clear();
   }
-  void save(std::uint32_t particle, const Event& event) { events_.push_back({particle, event}); }
-  void save(std::uint32_t particle, const Particle& record) {
-    records_.push_back({particle, record});
+  [[gnu::always_inline]] void save(std::uint32_t particle, const Event& event) {
+    events_.add({event, particle});
   }
-  void save(const Memento& memento) { mementos_.push_back(memento); }
+  [[gnu::always_inline]] void save(std::uint32_t particle, const Particle& record) {
+    records_.add(record);
+    changed_.add(particle);
+  }
+  [[gnu::always_inline]] void save(const Memento& memento) {
+    if constexpr (!std::is_empty_v<Memento>) mementos_.add(memento);
+  }
 
+  // Calls these with everything that was saved, the latest first.
   template <class RestoreEvent, class RestoreRecord, class RestoreMemento>
-  void undo(const RestoreEvent& event, const RestoreRecord& record, const RestoreMemento& memento) {
-    for (auto saved = mementos_.rbegin(); saved != mementos_.rend(); ++saved) memento(*saved);
-    for (auto saved = records_.rbegin(); saved != records_.rend(); ++saved)
-      record(saved->particle, saved->before);
-    for (auto saved = events_.rbegin(); saved != events_.rend(); ++saved)
+  void undo(const RestoreEvent& event, const RestoreRecord& record,
+            const RestoreMemento& memento) const {
+    for (const Memento* saved = mementos_.end(); saved != mementos_.begin();) memento(*--saved);
+    for (std::size_t k = records_.size(); k-- > 0;)
+      record(changed_.begin()[k], records_.begin()[k]);
+    for (const SavedEvent* saved = events_.end(); saved != events_.begin();) {
+      --saved;
       event(saved->particle, saved->before);
+    }
   }
+  // The particles whose events were changed; one may come several times.
   template <class Visit>
-  void for_each_event(const Visit& visit) const {
-    for (const auto& saved : events_) visit(saved.particle);
+  void for_each_particle(const Visit& visit) const {
+    for (const SavedEvent& saved : events_) visit(saved.particle);
   }
 
   std::size_t memory() const {
-    return events_.capacity() * sizeof(events_[0]) + records_.capacity() * sizeof(records_[0]) +
-           mementos_.capacity() * sizeof(Memento);
+    return events_.memory() + records_.memory() + changed_.memory() + mementos_.memory();
   }
 
  private:
-  template <class T>
-  struct Saved {
+  struct SavedEvent {
+    Event before;
     std::uint32_t particle;
-    T before;
   };
-  std::vector<Saved<Event>> events_;
-  std::vector<Saved<Particle>> records_;
-  std::vector<Memento> mementos_;
+  Tape<SavedEvent> events_;
+  Tape<Particle> records_;
+  Tape<std::uint32_t> changed_;  // whose records these are
+  Tape<Memento> mementos_;
 };
 
 }  // namespace haff::engine

@@ -13,7 +13,8 @@ struct Event {
   std::uint32_t partner;          // at contact_time
   std::uint32_t partner_changes;  // the partner's `changes` when this was computed
   Cell cell;
-  Face face;  // to leave through, or `contact`
+  std::uint8_t face;       // to leave through, or `contact`
+  std::uint8_t owner = 0;  // the thread in whose queue the event is
 
   static constexpr Face contact = 6;
 };

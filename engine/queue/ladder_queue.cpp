@@ -34,7 +34,8 @@ void rank_keys(const Keys& key, std::size_t count, Keys& rank) {
 
 }  // namespace
 
-void LadderQueue::restart(double rate, std::uint32_t foresight) {
+template <class Members>
+void LadderQueueOf<Members>::restart(double rate, std::uint32_t foresight) {
   slots_per_time_ = rate / events_per_slot;
   foresight_ = foresight;
   slot_ = 0;
@@ -47,8 +48,9 @@ void LadderQueue::restart(double rate, std::uint32_t foresight) {
   beyond_.clear();
 }
 
+template <class Members>
 template <class Visit>
-void LadderQueue::empty(List& list, const Visit& visit) {
+void LadderQueueOf<Members>::empty(List& list, const Visit& visit) {
   std::uint32_t count = list.count;
   for (std::uint32_t chunk = list.chunk; chunk != none; count = in_chunk) {
     for (std::uint32_t k = 0; k < count; ++k) visit(chunks_[chunk].particle[k]);
@@ -60,7 +62,8 @@ void LadderQueue::empty(List& list, const Visit& visit) {
   list = {};
 }
 
-void LadderQueue::open_chunk(List& list) {
+template <class Members>
+void LadderQueueOf<Members>::open_chunk(List& list) {
   std::uint32_t fresh = free_chunk_;
   if (fresh == none) {
     fresh = static_cast<std::uint32_t>(chunks_.size());
@@ -72,17 +75,20 @@ void LadderQueue::open_chunk(List& list) {
   list = {fresh, 0};
 }
 
-void LadderQueue::add_beyond(std::uint32_t particle) {
+template <class Members>
+void LadderQueueOf<Members>::add_beyond(std::uint32_t particle) {
   beyond_.push_back(particle);
 }
 
 // Makes room for so many more due entries.
-void LadderQueue::make_room(std::size_t count) {
+template <class Members>
+void LadderQueueOf<Members>::make_room(std::size_t count) {
   if (due_.size() < end_ + count + 2) [[unlikely]]
     due_.resize(2 * (end_ + count) + 2);
 }
 
-void LadderQueue::add_to_due(double time, std::uint32_t particle) {
+template <class Members>
+void LadderQueueOf<Members>::add_to_due(double time, std::uint32_t particle) {
   make_room(1);
   std::size_t k = end_++;
   due_[end_ + 1] = never_due;
@@ -92,7 +98,8 @@ void LadderQueue::add_to_due(double time, std::uint32_t particle) {
 }
 
 // Sorts the first `count` entries of found_ and appends them to the due entries.
-void LadderQueue::sort_in(std::size_t count) {
+template <class Members>
+void LadderQueueOf<Members>::sort_in(std::size_t count) {
   make_room(count);
   Entry* const begin = due_.data() + end_;
   Entry* const end = begin + count;
@@ -118,7 +125,8 @@ void LadderQueue::sort_in(std::size_t count) {
   end_ += count;
 }
 
-bool LadderQueue::open_next_slot() {
+template <class Members>
+bool LadderQueueOf<Members>::open_next_slot() {
   // Moves the entries that are left from earlier slots to the front.
   for (std::size_t k = head_; k < end_; ++k) due_[k - head_] = due_[k];
   end_ -= head_;
@@ -130,10 +138,10 @@ bool LadderQueue::open_next_slot() {
     List& list = lists_[in_window(slot_)];
     if (list.chunk == none) continue;
     std::size_t count = 0;
-    empty(list, [&](std::uint32_t particle) {
+    empty(list, [&](std::uint32_t particle) __attribute__((always_inline)) {
       if (count == found_.size()) [[unlikely]]
         found_.resize(2 * count + 16);
-      const double time = time_of(particle);
+      const double time = time_of(particle, never_due.time);
       found_[count] = {time, particle};
       count += slot_of(time) == slot_;
     });
@@ -143,7 +151,8 @@ bool LadderQueue::open_next_slot() {
   }
 }
 
-bool LadderQueue::open_next_window() {
+template <class Members>
+bool LadderQueueOf<Members>::open_next_window() {
   // slot_ is the first slot of the new window. Skips empty windows.
   for (;;) {
     const Slot window = window_of(slot_);
@@ -165,7 +174,7 @@ bool LadderQueue::open_next_window() {
       opened_.push_back(particle);
     });
     for (const std::uint32_t particle : opened_) {
-      const Slot slot = slot_of(time_of(particle));
+      const Slot slot = slot_of(time_of(particle, never_due.time));
       append(lists_[choose(window_of(slot) == window, in_window(slot), slots())], particle);
     }
     empty(lists_[slots()], [](std::uint32_t) {});
@@ -173,19 +182,21 @@ bool LadderQueue::open_next_window() {
   }
 }
 
-void LadderQueue::extend() {
+template <class Members>
+void LadderQueueOf<Members>::extend() {
   // All windows are used up. Creates the same number again, starting at the earliest waiting event.
   std::vector<std::uint32_t> waiting;
   waiting.swap(beyond_);
   double earliest = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t particle : waiting) earliest = std::min(earliest, time_of(particle));
+  for (const std::uint32_t particle : waiting)
+    earliest = std::min(earliest, time_of(particle, never_due.time));
   // An outdated entry's particle has an entry elsewhere too; its time may be long past.
   if (const Slot slot = slot_of(earliest); slot > slot_ && slot != no_slot)
     slot_ = slot - in_window(slot);
   first_window_ = window_of(slot_);
   std::fill(lists_.begin() + static_cast<std::ptrdiff_t>(slots()) + 1, lists_.end(), List{});
   for (const std::uint32_t particle : waiting) {
-    const Slot slot = slot_of(time_of(particle));
+    const Slot slot = slot_of(time_of(particle, never_due.time));
     if (slot < slot_ || slot == no_slot) continue;  // outdated, or never
     if (const std::size_t list = list_of(window_of(slot)); list < lists_.size())
       append(lists_[list], particle);
@@ -194,10 +205,14 @@ void LadderQueue::extend() {
   }
 }
 
-std::size_t LadderQueue::memory() const {
+template <class Members>
+std::size_t LadderQueueOf<Members>::memory() const {
   return storage_.capacity() * sizeof(Event) + chunks_.capacity() * sizeof(Chunk) +
          lists_.capacity() * sizeof(List) + (due_.capacity() + found_.capacity()) * sizeof(Entry) +
          (beyond_.capacity() + opened_.capacity()) * sizeof(std::uint32_t);
 }
+
+template class LadderQueueOf<AllParticles>;
+template class LadderQueueOf<OwnParticles>;
 
 }  // namespace haff::engine

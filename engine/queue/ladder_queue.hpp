@@ -12,7 +12,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -23,17 +22,30 @@
 
 namespace haff::engine {
 
-class LadderQueue {
+// Which particles a queue holds: all of them, or those of one thread. An entry of a particle that
+// has gone to another thread's queue is dropped when it is met, and its event is not looked at.
+struct AllParticles {
+  static constexpr bool holds(const Event&) { return true; }
+};
+struct OwnParticles {
+  bool holds(const Event& event) const { return event.owner == number; }
+
+  std::uint8_t number;
+};
+
+template <class Members>
+class LadderQueueOf {
  public:
   static constexpr std::uint32_t nothing = 0xffffffff;
 
-  explicit LadderQueue(std::uint32_t particles) : LadderQueue(nullptr, particles) {
+  explicit LadderQueueOf(std::uint32_t particles) : LadderQueueOf(nullptr, particles, {}) {
     storage_.resize(particles);
     events_ = storage_.data();
   }
   // A queue for about `particles` of the particles whose events are stored elsewhere.
-  LadderQueue(Event* events, std::uint32_t particles)
-      : events_(events),
+  LadderQueueOf(Event* events, std::uint32_t particles, Members members)
+      : members_(members),
+        events_(events),
         particles_(particles),
         window_bits_(particles < small ? bits_if_small : bits_if_large) {}
 
@@ -118,11 +130,15 @@ class LadderQueue {
   Slot in_window(Slot slot) const { return slot & (slots() - 1); }
   // The list of a window. The events of the present window are in the lists of its slots.
   std::size_t list_of(Slot window) const { return slots() + 1 + (window - first_window_); }
-  // An entry may be of a particle that now belongs to another thread's queue.
-  double time_of(std::uint32_t particle) const {
-    return std::atomic_ref(events_[particle].time).load(std::memory_order_relaxed);
+  // The time of a particle that is a member; otherwise `absent`.
+  double time_of(std::uint32_t particle, double absent) const {
+    const Event& event = events_[particle];
+    return members_.holds(event) ? event.time : absent;
   }
-  bool outdated(const Entry& entry) const { return time_of(entry.particle) != entry.time; }
+  bool outdated(const Entry& entry) const {
+    const Event& event = events_[entry.particle];
+    return !members_.holds(event) || event.time != entry.time;
+  }
   bool only_twins() const;
   void append(List& list, std::uint32_t particle);
   void open_chunk(List& list);
@@ -138,6 +154,7 @@ class LadderQueue {
   template <class Rank>
   std::uint32_t settle_tie(Rank&& rank);
 
+  [[no_unique_address]] Members members_;
   HugeVector<Event> storage_;  // empty if the events are stored elsewhere
   Event* events_;              // by particle
   std::uint32_t particles_;    // about so many of them are in this queue
@@ -159,13 +176,16 @@ class LadderQueue {
   std::vector<std::uint32_t> beyond_;  // events after the last window
 };
 
-[[gnu::always_inline]] inline void LadderQueue::append(List& list, std::uint32_t particle) {
+template <class Members>
+[[gnu::always_inline]] inline void LadderQueueOf<Members>::append(List& list,
+                                                                  std::uint32_t particle) {
   if (list.count == in_chunk) [[unlikely]]
     open_chunk(list);
   chunks_[list.chunk].particle[list.count++] = particle;
 }
 
-[[gnu::always_inline]] inline void LadderQueue::schedule(std::uint32_t particle) {
+template <class Members>
+[[gnu::always_inline]] inline void LadderQueueOf<Members>::schedule(std::uint32_t particle) {
   const double time = events_[particle].time;
   const Slot slot = slot_of(time);
   const Slot window = window_of(slot);
@@ -178,8 +198,9 @@ class LadderQueue {
     add_beyond(particle);
 }
 
+template <class Members>
 template <class Rank>
-std::uint32_t LadderQueue::next(Rank&& rank) {
+std::uint32_t LadderQueueOf<Members>::next(Rank&& rank) {
   for (;;) {
     while (head_ + foresight_ >= end_ && open_next_slot()) {
     }
@@ -198,17 +219,21 @@ std::uint32_t LadderQueue::next(Rank&& rank) {
 }
 
 // Whether the next two entries are the two partners of one contact, and the third comes later.
-inline bool LadderQueue::only_twins() const {
+template <class Members>
+[[gnu::always_inline]] inline bool LadderQueueOf<Members>::only_twins() const {
   const Entry* const due = due_.data() + head_;
   const Event& one = events_[due[0].particle];
-  const Event& other = events_[due[1].particle];
-  const std::uint32_t differ = (one.partner ^ due[1].particle) | (other.partner ^ due[0].particle) |
+  // Of a particle that has gone, no event is looked at; settle_tie() drops its entry.
+  const std::uint32_t second = members_.holds(events_[due[1].particle]) ? due[1].particle : due[0].particle;
+  const Event& other = events_[second];
+  const std::uint32_t differ = (one.partner ^ second) | (other.partner ^ due[0].particle) |
                                ((one.face & other.face) ^ Event::contact);
   return all_of(differ == 0, due[2].time != due[0].time);
 }
 
+template <class Members>
 template <class Rank>
-std::uint32_t LadderQueue::settle_tie(Rank&& rank) {
+std::uint32_t LadderQueueOf<Members>::settle_tie(Rank&& rank) {
   const auto tied = due_.begin() + static_cast<std::ptrdiff_t>(head_);
   const auto end =
       std::find_if(tied, due_.begin() + static_cast<std::ptrdiff_t>(end_),
@@ -222,5 +247,10 @@ std::uint32_t LadderQueue::settle_tie(Rank&& rank) {
   ++head_;
   return particle;
 }
+
+extern template class LadderQueueOf<AllParticles>;
+extern template class LadderQueueOf<OwnParticles>;
+
+using LadderQueue = LadderQueueOf<AllParticles>;
 
 }  // namespace haff::engine

@@ -113,12 +113,26 @@ class Bricks {
   Wanted<1 << (d - 1)> beyond(Cell cell, Face face) const;
 
   // The neighbour of a cell on the other side of a face.
-  Cell across(Cell cell, Face face) const {
+  [[gnu::always_inline]] Cell across(Cell cell, Face face) const {
     const unsigned axis = face / 2;
     const std::uint32_t c = cell[axis] + 2 * (face & 1) - 1;
     cell.set(axis, c + (wraps(c, 0 - 1u) & cells_) - (wraps(c, cells_) & cells_));
     return cell;
   }
+
+  // Whether two cells are the same or next to each other.
+  bool are_neighbours(Cell a, Cell b) const {
+    bool near = true;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const std::uint32_t from = b[axis] - a[axis] + 1;  // 0, 1, 2, or across the box
+      near = near && (from <= 2 || from == cells_ || from - 2 + cells_ == 0);
+    }
+    return near;
+  }
+
+  // Of the bricks around a cell, in the order of around(): which of the eight cells of brick n are
+  // the same as the cell or next to it; bit h stands for the cell in half h of the brick.
+  static std::uint8_t near_cells(std::size_t n, Cell cell) { return near_cells_[n][half_of(cell)]; }
 
   std::uint32_t brick_of(Cell cell) const {
     return along(cell, 0).own + along(cell, 1).own + along(cell, 2).own;
@@ -161,6 +175,14 @@ class Bricks {
   // cell's own. Only the half of it that touches the cell is wanted, which is the other half than
   // the cell's.
   static std::uint32_t care_around(std::uint32_t n) { return occupied | n << half_shift; }
+  static constexpr std::array<std::array<std::uint8_t, 8>, 8> near_cells_ = [] {
+    std::array<std::array<std::uint8_t, 8>, 8> cells{};
+    for (std::uint32_t n = 0; n < 8; ++n)
+      for (std::uint32_t own = 0; own < 8; ++own)
+        for (std::uint32_t half = 0; half < 8; ++half)
+          if ((n & (half ^ ~own)) == 0) cells[n][own] |= static_cast<std::uint8_t>(1u << half);
+    return cells;
+  }();
   // Around a cell of the layer beyond a face: only the bricks that hold the layer itself, and in
   // them only its half.
   static std::uint32_t care_beyond(std::uint32_t axis, std::uint32_t k) {

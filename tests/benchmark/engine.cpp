@@ -124,13 +124,12 @@ int main(int argc, char** argv) {
       {"state_hash", state_hash(gas)}};
   if (const auto windows = gas.windows()) {
     const auto count = static_cast<double>(windows->count);
-    const auto all = static_cast<double>(windows->in_slabs + windows->in_zones + windows->in_box);
+    const auto all = static_cast<double>(windows->in_slabs + windows->in_zones);
     result["windows"] = windows->count;
     result["repaired"] = static_cast<double>(windows->repaired) / count;
     result["in_one_piece"] = static_cast<double>(windows->in_one_piece) / collisions;
     result["events_per_window"] = all / count;
     result["in_zones"] = static_cast<double>(windows->in_zones) / all;
-    result["in_box"] = static_cast<double>(windows->in_box) / all;
     result["busiest_thread"] = static_cast<double>(windows->longest) / all;
   }
   if (json) {

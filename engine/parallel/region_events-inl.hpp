@@ -1,0 +1,172 @@
+// What an event does, to the particles and to those that come after it: as in the event loop of one
+// thread (event_loop-inl.hpp), but every loop decides for itself what it notes on the way and where
+// the next event of a particle is kept.
+//
+// This file is compiled once for each SIMD target, hence its place in HWY_NAMESPACE.
+#if defined(HAFF_ENGINE_REGION_EVENTS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HAFF_ENGINE_REGION_EVENTS_INL
+#undef HAFF_ENGINE_REGION_EVENTS_INL
+#else
+#define HAFF_ENGINE_REGION_EVENTS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "engine/loop/watchdog.hpp"
+#include "engine/parallel/region.hpp"
+#include "engine/search/plain_search.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace haff::engine::HWY_NAMESPACE {
+
+// `Loop` derives from this and has
+//   void keep(p)        keeps the event of p as it is, before it changes;
+//   void meet(p, q)     lets two particles collide;
+//   void touch(cell)    notes that something changes in a cell;
+//   void put(p)         stores that p has its next event at gas.queue[p].time;
+//   Events& counts()    counts events.
+template <class Loop, class Search, class Physics>
+class RegionEvents {
+ protected:
+  RegionEvents(Gas& gas, Physics& physics) : gas_(gas), physics_(physics), search_(gas, physics) {}
+
+  void collide(std::uint32_t p, std::uint32_t q) {
+    const Cell p_cell = gas_.queue[p].cell;
+    const Cell q_cell = gas_.queue[q].cell;
+    loop().keep(p);
+    loop().keep(q);
+    loop().touch(p_cell);
+    loop().touch(q_cell);
+    loop().meet(p, q);
+    ++loop().counts().collisions;
+    const auto [first, second] = search_.around_both(p, p_cell, q, q_cell);
+    set_prediction(p, first);
+    set_prediction(q, second);
+  }
+
+  void cross(std::uint32_t p) {
+    Event& event = gas_.queue[p];
+    loop().keep(p);
+    loop().touch(event.cell);
+    ++loop().counts().crossings;
+    const Cell to = gas_.bricks.cross(p, event.cell, event.face);
+    loop().touch(to);
+    std::atomic_ref(event.cell.packed).store(to.packed, std::memory_order_relaxed);
+    const Contact contact = search_.beyond(p, to, event.face, now_);
+    if (contact.time < never) {  // if there is none, its partner may be another thread's
+      const Contact known{event.contact_time, event.partner};
+      const std::uint32_t changes = gas_.particles[contact.partner].changes;
+      const bool earlier = engine::comes_before(contact, known, gas_.particles);
+      event.contact_time = choose(earlier, contact.time, known.time);
+      event.partner = choose(earlier, contact.partner, known.partner);
+      event.partner_changes = choose(earlier, changes, event.partner_changes);
+    }
+    schedule(p);
+  }
+
+  void repredict(std::uint32_t p) {
+    const Cell cell = gas_.queue[p].cell;
+    loop().keep(p);
+    loop().touch(cell);
+    ++loop().counts().stale;
+    set_prediction(p, search_.around(p, cell, now_));
+  }
+
+  // The order among events of exactly the same time (EventLoop).
+  std::uint64_t rank(std::uint32_t p) const {
+    const Event& event = gas_.queue[p];
+    if (event.face != Event::contact) return 0;
+    return rank_of(gas_.particles[p], gas_.particles[event.partner]);
+  }
+  static std::uint64_t rank_of(const Particle& a, const Particle& b) {
+    return 1 + (std::uint64_t{std::min(a.id, b.id)} << 32 | std::max(a.id, b.id));
+  }
+
+  // A collision within a window that may have to be undone.
+  template <class Done>
+  HWY_INLINE void meet_for_now(std::uint32_t p, std::uint32_t q, Done& done, double& closest2) {
+    Particle& a = gas_.particles[p];
+    Particle& b = gas_.particles[q];
+    done.log.save(p, a);
+    done.log.save(q, b);
+    done.log.save(physics_.memento(a, b));
+    CollisionTerms terms;
+    const double approach = physics_.collide(a, b, now_, gas_.box, terms);
+    if (approach > -slow_approach) [[unlikely]]
+      done.violated = true;  // a matter for the watchdog
+    closest2 = std::min(closest2, terms.invariants.closest2);
+    const auto& lost = terms.tally.dissipated.value;
+    done.collisions.push_back(
+        {now_, rank_of(a, b), terms.tally.virial.value[0], {lost[0], lost[1]}});
+  }
+
+  // Sends the event of p to the queue of the slab that p is in, for a later window.
+  template <class AnyRegion>
+  void send(std::uint32_t p, AnyRegion& from) {
+    Event& event = gas_.queue[p];
+    from.send(p, event, gas_.bricks.layer_of(event.cell));
+  }
+
+  HWY_INLINE void set_prediction(std::uint32_t p, const Contact& contact) {
+    Event& event = gas_.queue[p];
+    event.contact_time = contact.time;
+    event.partner = contact.time < never ? contact.partner : p;
+    event.partner_changes = gas_.particles[event.partner].changes;
+    schedule(p);
+  }
+
+  HWY_INLINE void schedule(std::uint32_t p) {
+    Event& event = gas_.queue[p];
+    const Exit exit = search_.exit(p, event.cell, now_);
+    event.time = std::min(event.contact_time, exit.time);
+    event.face = static_cast<std::uint8_t>(
+        choose(event.contact_time <= exit.time, Event::contact, exit.face));
+    loop().put(p);
+  }
+
+  // Prefetches what the next events of a window's queue need, as in the event loop of one thread.
+  // Only cells that may be read are looked at.
+  template <class MayRead>
+  HWY_INLINE void prefetch_coming(const WindowQueue& queue, const MayRead& may_read) {
+    constexpr std::uint32_t stride = foresight / 4;
+    const Particle* const particles = gas_.particles.data();
+    if (const std::uint32_t p = queue.coming(4 * stride); p != WindowQueue::nothing) {
+      __builtin_prefetch(particles + p, 1, 2);
+      __builtin_prefetch(&gas_.queue[p], 1, 2);
+    }
+    if (const std::uint32_t p = queue.coming(3 * stride); p != WindowQueue::nothing) {
+      const Event& event = gas_.queue[p];
+      if (event.face == Event::contact) {
+        __builtin_prefetch(particles + event.partner, 1, 2);
+        __builtin_prefetch(&gas_.queue[event.partner], 1, 2);
+        search_.prefetch_bricks_around(event.cell);
+      } else {
+        search_.prefetch_bricks_beyond(event.cell, event.face);
+      }
+    }
+    if (const std::uint32_t p = queue.coming(2 * stride); p != WindowQueue::nothing) {
+      const Event& event = gas_.queue[p];
+      if (!may_read(event.cell)) return;
+      if (event.face == Event::contact)
+        search_.prefetch_particles_around(event.cell);
+      else if (may_read(gas_.bricks.across(event.cell, event.face)))
+        search_.prefetch_particles_beyond(event.cell, event.face);
+    }
+  }
+
+  Gas& gas_;
+  Physics& physics_;
+  Search search_;
+  double now_ = 0;
+
+ private:
+  Loop& loop() { return static_cast<Loop&>(*this); }
+};
+
+}  // namespace haff::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

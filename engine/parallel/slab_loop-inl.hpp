@@ -1,0 +1,239 @@
+// The first phase of a window: every thread works off the events inside its slab, in their order.
+//
+// An event that needs something outside of the slab is deferred to the zone around that border, and
+// the bricks around it are frozen until then, because the event may change what is there: so an
+// event that comes near a frozen brick is deferred, too.
+//
+// This file is compiled once for each SIMD target, hence its place in HWY_NAMESPACE.
+#if defined(HAFF_ENGINE_SLAB_LOOP_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HAFF_ENGINE_SLAB_LOOP_INL
+#undef HAFF_ENGINE_SLAB_LOOP_INL
+#else
+#define HAFF_ENGINE_SLAB_LOOP_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/parallel/region_events-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace haff::engine::HWY_NAMESPACE {
+
+template <class Search, class Physics, int dimension, bool prefetching>
+class SlabLoop
+    : public RegionEvents<SlabLoop<Search, Physics, dimension, prefetching>, Search, Physics> {
+  using Base = RegionEvents<SlabLoop, Search, Physics>;
+  friend Base;
+
+ public:
+  using OwnRegion = Region<typename Physics::Memento>;
+
+  SlabLoop(Gas& gas, Physics& physics, OwnRegion& region)
+      : Base(gas, physics), region_(region), division_(region.division) {}
+
+  // After a synchronization: finds the first contacts of a part of all particles.
+  void predict(std::uint32_t begin, std::uint32_t end) {
+    this->now_ = 0;
+    is_beginning_ = true;
+    for (std::uint32_t p = begin; p < end; ++p)
+      this->set_prediction(p, this->search_.around_higher(p, this->gas_.queue[p].cell));
+    is_beginning_ = false;
+  }
+
+  // The events from `begin` to `end`. An exception is a matter for the loop of one thread.
+  void work(double begin, double end) try {
+    this->now_ = begin;
+    slab_ = region_.slab();
+    reach_ = Slab::border;
+    while (!done_.violated) {
+      const std::uint32_t p = region_.queue.next([this](std::uint32_t q) { return this->rank(q); });
+      if (p == LadderQueue::nothing) break;
+      const Event& event = this->gas_.queue[p];
+      if (event.time >= end) {
+        region_.queue.put_back();
+        break;
+      }
+      if constexpr (prefetching) prefetch_upcoming();
+      if (event.time < this->now_) [[unlikely]] {
+        // Rounding: only the loop of one thread knows what the present time is then.
+        region_.queue.put_back();
+        done_.violated = true;
+        break;
+      }
+      this->now_ = event.time;
+      if (event.face != Event::contact)
+        try_to_cross(p);
+      else
+        try_to_collide(p, event.partner);
+    }
+    thaw();
+  } catch (const PhysicsError&) {
+    done_.violated = true;
+    thaw();
+  }
+
+ private:
+  HWY_INLINE void try_to_cross(std::uint32_t p) {
+    const Event& event = this->gas_.queue[p];
+    const Cell to = this->gas_.bricks.across(event.cell, event.face);
+    if (HWY_LIKELY(may_touch(event.cell) && may_touch(to)))
+      this->cross(p);
+    else
+      defer(p, to);
+  }
+
+  HWY_INLINE void try_to_collide(std::uint32_t p, std::uint32_t q) {
+    const Event& event = this->gas_.queue[p];
+    if (HWY_UNLIKELY(!is_own(q))) {
+      // Far from the border, it cannot be where the contact was expected: it has collided.
+      if (may_touch(event.cell))
+        this->repredict(p);
+      else
+        defer(p, event.cell);  // what is around the partner in this slab has to wait anyway
+      return;
+    }
+    if (this->gas_.particles[q].changes == event.partner_changes) {
+      const Cell there = this->gas_.queue[q].cell;
+      if (HWY_LIKELY(may_touch(event.cell) && may_touch(there)))
+        this->collide(p, q);
+      else
+        defer(p, there);
+    } else {
+      if (HWY_LIKELY(may_touch(event.cell)))
+        this->repredict(p);
+      else
+        defer(p, event.cell);
+    }
+  }
+
+  // Whether something in this cell may change now. Nothing is frozen farther inside the slab than
+  // `reach_` says, which is not far.
+  HWY_INLINE bool may_touch(Cell cell) const {
+    return HWY_LIKELY(slab_.is_inside(cell, reach_)) ||
+           (slab_.may_work_in(cell) && !is_frozen(cell));
+  }
+  HWY_NOINLINE bool is_frozen(Cell cell) const {
+    const auto bricks = this->gas_.bricks.template around<dimension>(cell).brick;
+    unsigned frozen = 0;
+    for (std::size_t n = 0; n < bricks.size(); ++n)
+      frozen |= division_.frozen[bricks[n] / Bricks::slots] & Bricks::near_cells(n, cell);
+    return frozen != 0;
+  }
+
+  void defer(std::uint32_t p, Cell there) {
+    const Cell here = this->gas_.queue[p].cell;
+    defer_to_zone(p, here);
+    freeze(here);
+    if (there != here) freeze(there);
+  }
+  void defer_to_zone(std::uint32_t p, Cell here) {
+    if (!slab_.is_near_border(here)) done_.violated = true;
+    region_.deferred[division_.slabs.zone_of_layer(this->gas_.bricks.layer_of(here))].push_back(
+        {this->now_, p});
+  }
+
+  // Freezes the cells around a cell, those in the own slab.
+  void freeze(Cell cell) {
+    const auto bricks = this->gas_.bricks.template around<dimension>(cell).brick;
+    const bool own = slab_.holds(cell);
+    const bool next = slab_.holds(cell, cell[this->gas_.bricks.last_axis()] % 2 == 1 ? 1 : -1);
+    // The first half of the bricks is in the layer of the cell, the second half in the next one.
+    for (std::size_t n = 0; n < bricks.size(); ++n) {
+      if (!(n < bricks.size() / 2 ? own : next)) continue;
+      const std::uint32_t brick = bricks[n] / Bricks::slots;
+      if (division_.frozen[brick] == 0) frozen_.push_back(brick);
+      division_.frozen[brick] |= Bricks::near_cells(n, cell);
+    }
+    // An event that waits reads one layer of cells more than its own, and so does one that does
+    // not.
+    reach_ = std::max(reach_, slab_.depth(cell) + 3);
+  }
+  void thaw() {
+    for (const std::uint32_t brick : frozen_) division_.frozen[brick] = 0;
+    frozen_.clear();
+  }
+
+  // ---- what an event leaves behind ------------------------------------------------------------
+
+  Events& counts() { return done_.events; }
+  HWY_INLINE void keep(std::uint32_t p) { done_.log.save(p, this->gas_.queue[p]); }
+  HWY_INLINE void touch(Cell cell) {
+    if (HWY_UNLIKELY(!slab_.is_deep(cell)))
+      division_.marks[this->gas_.bricks.brick_of(cell) / Bricks::slots] =
+          static_cast<float>(this->now_);
+  }
+  HWY_INLINE void meet(std::uint32_t p, std::uint32_t q) {
+    this->meet_for_now(p, q, done_, region_.closest2);
+    region_.queue.forget(q);
+  }
+  HWY_INLINE void put(std::uint32_t p) {
+    if (HWY_LIKELY(!is_beginning_)) region_.queue.schedule(p);
+  }
+
+  // ---- prefetching ----------------------------------------------------------------------------
+
+  // As in the event loop of one thread, but it looks only at what belongs to the region.
+  HWY_INLINE void prefetch_upcoming() {
+    auto& queue = region_.queue;
+    const auto& events = this->gas_.queue;
+    const auto* const particles = this->gas_.particles.data();
+    auto& search = this->search_;
+    {
+      const std::uint32_t p = queue.coming(4 * stride);
+      __builtin_prefetch(particles + p, 1, 2);
+      __builtin_prefetch(&events[p], 1, 2);
+    }
+    if (const std::uint32_t p = queue.coming(3 * stride); is_own(p)) {
+      const Event& event = events[p];
+      if (event.face == Event::contact) {
+        __builtin_prefetch(particles + event.partner, 1, 2);
+        __builtin_prefetch(&events[event.partner], 1, 2);
+        search.prefetch_bricks_around(event.cell);
+      } else {
+        search.prefetch_bricks_beyond(event.cell, event.face);
+      }
+    }
+    if (const std::uint32_t p = queue.coming(2 * stride); is_inside(p)) {
+      const Event& event = events[p];
+      if (event.face == Event::contact) {
+        search.prefetch_particles_around(event.cell);
+        if (is_inside(event.partner) && events[event.partner].cell != event.cell)
+          search.prefetch_bricks_around(events[event.partner].cell);
+      } else if (slab_.may_work_in(this->gas_.bricks.across(event.cell, event.face))) {
+        search.prefetch_particles_beyond(event.cell, event.face);
+      }
+    }
+    if (!huge_) return;
+    if (const std::uint32_t p = queue.coming(stride); is_inside(p)) {
+      const Event& event = events[p];
+      if (event.face == Event::contact && is_inside(event.partner) &&
+          events[event.partner].cell != event.cell)
+        search.prefetch_particles_around(events[event.partner].cell);
+    }
+  }
+  HWY_INLINE bool is_own(std::uint32_t p) const {
+    return this->gas_.queue[p].owner == region_.number;
+  }
+  HWY_INLINE bool is_inside(std::uint32_t p) const {
+    return is_own(p) && slab_.may_work_in(this->gas_.queue[p].cell);
+  }
+
+  static constexpr std::uint32_t stride = foresight / 4;
+
+  OwnRegion& region_;
+  typename OwnRegion::Done& done_ = region_.in(Phase::slab);
+  Division& division_;
+  Slab slab_;
+  bool is_beginning_ = false;
+  const bool huge_ = this->gas_.particles.size() > 200000;
+  std::vector<std::uint32_t> frozen_;  // bricks
+  std::uint32_t reach_ = 0;
+};
+
+}  // namespace haff::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,127 @@
+// The second phase of a window: every thread works off the events that were deferred to the zone
+// around the border below its slab.
+//
+// Why the result does not depend on the division. Suppose that an event X, which is earlier than an
+// event Y, was processed after Y. Within one slab or one zone events are processed in their order;
+// slabs do not touch each other (slabs.hpp), and neither do zones. So X is in a zone, and Y was in
+// a slab. If neither reads a cell in which the other one changes something, the order of the two is
+// immaterial. If one does, then a cell of a particle of Y is next to (or the same as) a cell of a
+// particle of X, since an event reads the cells next to those of its particles and changes only
+// these. It is not deep inside the slab, since X reads nothing there; so Y has left its time as a
+// mark on its brick, and X finds this mark, which is later than its own time, in the bricks that it
+// reads. This is always noticed: the window is undone and worked off in one piece.
+//
+// An event also asks whether its partner has collided. If the partner is not in a cell next to that
+// of the event's particle, it has; and if the collision came later than the event, the partner has
+// left that neighbourhood since, and there is a mark where it did.
+//
+// This file is compiled once for each SIMD target, hence its place in HWY_NAMESPACE.
+#if defined(HAFF_ENGINE_ZONE_LOOP_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HAFF_ENGINE_ZONE_LOOP_INL
+#undef HAFF_ENGINE_ZONE_LOOP_INL
+#else
+#define HAFF_ENGINE_ZONE_LOOP_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "engine/parallel/region_events-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace haff::engine::HWY_NAMESPACE {
+
+template <class Search, class Physics, int dimension, bool prefetching>
+class ZoneLoop
+    : public RegionEvents<ZoneLoop<Search, Physics, dimension, prefetching>, Search, Physics> {
+  using Base = RegionEvents<ZoneLoop, Search, Physics>;
+  friend Base;
+
+ public:
+  using OwnRegion = Region<typename Physics::Memento>;
+
+  ZoneLoop(Gas& gas, Physics& physics, OwnRegion& region)
+      : Base(gas, physics), region_(region), division_(region.division), queue_(&gas.queue[0]) {}
+
+  // The events that all regions have deferred to this zone, from `begin` to `end`. An exception is
+  // a matter for the loop of one thread.
+  template <class Regions>
+  void work(const Regions& regions, double begin, double end) try {
+    this->now_ = begin;
+    end_ = end;
+    zone_ = region_.zone();
+    queue_.clear();
+    for (const auto& region : regions) queue_.merge(region->deferred[region_.number]);
+    while (!done_.violated) {
+      if constexpr (prefetching)
+        this->prefetch_coming(queue_, [this](Cell cell) { return zone_.may_work_in(cell); });
+      const std::uint32_t p = queue_.next([this](std::uint32_t q) { return this->rank(q); });
+      if (p == WindowQueue::nothing) break;
+      if (!process(p)) done_.violated = true;
+    }
+  } catch (const PhysicsError&) {
+    done_.violated = true;
+  }
+
+ private:
+  // Returns false if that may not be done now.
+  bool process(std::uint32_t p) {
+    const Event& event = this->gas_.queue[p];
+    if (event.time < this->now_ || !may_touch(event.cell, event.time)) return false;
+    this->now_ = event.time;
+    if (event.face != Event::contact) {
+      if (!may_touch(this->gas_.bricks.across(event.cell, event.face), event.time)) return false;
+      this->cross(p);
+      return true;
+    }
+    // Another zone may just be moving the partner; then its cell, before and after, belongs to that
+    // zone.
+    const std::uint32_t q = event.partner;
+    const Cell there{
+        std::atomic_ref(this->gas_.queue[q].cell.packed).load(std::memory_order_relaxed)};
+    if (this->gas_.bricks.are_neighbours(event.cell, there) &&
+        this->gas_.particles[q].changes == event.partner_changes) {
+      if (there != event.cell && !may_touch(there, event.time)) return false;
+      this->collide(p, q);
+    } else {
+      this->repredict(p);
+    }
+    return true;
+  }
+
+  bool may_touch(Cell cell, double time) const {
+    if (!zone_.may_work_in(cell)) return false;
+    float latest = never_marked;
+    for (const std::uint32_t brick : this->gas_.bricks.template around<dimension>(cell).brick)
+      latest = std::max(latest, division_.marks[brick / Bricks::slots]);
+    // Rounding a time keeps the order; so a mark that is rounded to the same number may be later.
+    return latest < static_cast<float>(time);
+  }
+
+  // ---- what an event leaves behind ------------------------------------------------------------
+
+  Events& counts() { return done_.events; }
+  void keep(std::uint32_t p) { done_.log.save(p, this->gas_.queue[p]); }
+  void touch(Cell) {}  // what comes later in this zone comes later in time
+  void meet(std::uint32_t p, std::uint32_t q) { this->meet_for_now(p, q, done_, region_.closest2); }
+  void put(std::uint32_t p) {
+    if (this->gas_.queue[p].time < end_)
+      queue_.add(p);
+    else
+      this->send(p, region_);
+  }
+
+  OwnRegion& region_;
+  typename OwnRegion::Done& done_ = region_.in(Phase::zone);
+  Division& division_;
+  Zone zone_;
+  double end_ = 0;
+  WindowQueue queue_;
+};
+
+}  // namespace haff::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,53 @@
+// The events of one window come in the order of their times, whether they were taken at its begin
+// or added on the way, and outdated entries are dropped.
+#include "engine/parallel/window_queue.hpp"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+using namespace haff::engine;
+
+namespace {
+
+std::uint32_t by_number(std::uint32_t particle) {
+  return particle;
+}
+
+std::uint32_t next(WindowQueue& queue) {
+  return queue.next(by_number);
+}
+
+}  // namespace
+
+TEST_CASE("window queue: the first event first, and of equal times the smallest rank") {
+  std::vector<Event> events(6);
+  const double times[] = {3, 1, 2, 1, 5, 2};
+  for (std::size_t p = 0; p < events.size(); ++p) events[p].time = times[p];
+  WindowQueue queue(events.data());
+  for (const std::uint32_t p : {0u, 3u, 1u, 2u}) queue.take(p);
+  queue.sort();
+  CHECK(queue.coming(3) == 0);
+  CHECK(queue.coming(4) == WindowQueue::nothing);
+  queue.add(4);
+  queue.add(5);
+  for (const std::uint32_t expected : {1u, 3u, 2u, 5u, 0u, 4u}) CHECK(next(queue) == expected);
+  CHECK(next(queue) == WindowQueue::nothing);
+}
+
+TEST_CASE("window queue: an event that has got another time comes then, and only then") {
+  std::vector<Event> events(3);
+  for (std::size_t p = 0; p < events.size(); ++p) events[p].time = 1 + static_cast<double>(p);
+  WindowQueue queue(events.data());
+  queue.merge({{1, 0}, {3, 2}});
+  queue.merge({{2, 1}});
+  events[1].time = 4;
+  queue.add(1);
+  CHECK(next(queue) == 0);
+  std::vector<std::uint32_t> waiting;
+  queue.for_each([&](std::uint32_t p) { waiting.push_back(p); });
+  CHECK(waiting == std::vector<std::uint32_t>{2, 1});
+  CHECK(next(queue) == 2);
+  CHECK(next(queue) == 1);
+  CHECK(next(queue) == WindowQueue::nothing);
+}
