@@ -65,14 +65,15 @@ TEST_CASE("enskog: the dilute gas is Boltzmann's") {
 TEST_CASE("enskog: collisional transfer has the form of the first Sonine approximation") {
   // kappa = kappa_B [(1 + c phi chi)^2 / chi + ...], V. Garzo and J. W. Dufty, PRE 59, 5895 (1999):
   // c = 3 2^(d-1) / (d + 2), and the rest is twice the heat capacity times the bulk viscosity,
-  // uncorrected by the Sonine factor. Constants of the table are rounded to four digits.
+  // uncorrected by the Sonine factor. Constants of the table are rounded to three or four
+  // digits: 0.757 is good to 7e-4, of a term that is a third.
   for (const int d : {2, 3}) {
     const double phi = packing_fraction(n, d), chi = contact_value(n, d);
     const Transport fluid = transport(n, 1, d);
     const double boltzmann = (d == 2 ? 1.029 * 2 : 1.025 * 75 / 64) / std::sqrt(std::numbers::pi);
     const double c = 3.0 * (d == 2 ? 2 : 4) / (d + 2);
     const double kinetic = boltzmann * std::pow(1 + c * phi * chi, 2) / chi;
-    CHECK(off(fluid.conductivity, kinetic + d / 2.0 * fluid.bulk_viscosity) < 2e-4);
+    CHECK(off(fluid.conductivity, kinetic + d / 2.0 * fluid.bulk_viscosity) < 3e-4);
   }
 }
 
