@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -348,8 +350,8 @@ void print_advice(const std::vector<Advice>& all, std::ostream& report) {
                table.text());
 }
 
-// A row of cost.csv: whose, then whatever the row has.
-struct CsvLine {
+// A row of cost.csv: whose, then whatever the row has. The same rows are printed as JSON.
+struct CostRow {
   const char* row;
   Quantity quantity;
   schema::Job job;
@@ -359,17 +361,54 @@ struct CsvLine {
                         slope_error = {}, correlation_time = {}, memory_bytes = {};
 };
 
-std::string text_of(const CsvLine& line) {
-  const Quantity& q = line.quantity;
-  const schema::Job& job = line.job;
-  return csv_row(line.row, name(q.measure), q.from, q.to, q.r, job.e, job.n, job.particles,
-                 job.equilibrate, line.cause, line.realizations, line.cpu_seconds, line.value,
-                 line.error, line.interval, line.slope, line.slope_error, line.correlation_time,
-                 line.memory_bytes);
+std::string csv_of(const std::vector<CostRow>& rows) {
+  std::string text =
+      csv_row("row", "quantity", "tau_from", "tau_to", "r", "e", "n", "particles", "equilibrate",
+              "cause", "realizations", "cpu_seconds", "value", "error", "interval", "slope",
+              "slope_error", "correlation_time", "memory_bytes");
+  for (const CostRow& row : rows) {
+    const Quantity& q = row.quantity;
+    const schema::Job& job = row.job;
+    text +=
+        csv_row(row.row, name(q.measure), q.from, q.to, q.r, job.e, job.n, job.particles,
+                job.equilibrate, row.cause, row.realizations, row.cpu_seconds, row.value, row.error,
+                row.interval, row.slope, row.slope_error, row.correlation_time, row.memory_bytes);
+  }
+  return text;
 }
 
-std::string statistics_lines(const Statistics& each) {
-  CsvLine mean{.row = "mean",
+template <class T>
+nlohmann::ordered_json or_null(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json json_of(const std::vector<CostRow>& rows) {
+  auto list = nlohmann::ordered_json::array();
+  for (const CostRow& row : rows)
+    list.push_back({{"row", row.row},
+                    {"quantity", name(row.quantity.measure)},
+                    {"tau_from", row.quantity.from},
+                    {"tau_to", row.quantity.to},
+                    {"r", row.quantity.r},
+                    {"e", or_null(row.job.e)},
+                    {"n", row.job.n},
+                    {"particles", row.job.particles},
+                    {"equilibrate", row.job.equilibrate},
+                    {"cause", row.cause},
+                    {"realizations", or_null(row.realizations)},
+                    {"cpu_seconds", or_null(row.cpu_seconds)},
+                    {"value", or_null(row.value)},
+                    {"error", or_null(row.error)},
+                    {"interval", or_null(row.interval)},
+                    {"slope", or_null(row.slope)},
+                    {"slope_error", or_null(row.slope_error)},
+                    {"correlation_time", or_null(row.correlation_time)},
+                    {"memory_bytes", or_null(row.memory_bytes)}});
+  return list;
+}
+
+void add_rows(const Statistics& each, std::vector<CostRow>& rows) {
+  CostRow mean{.row = "mean",
                .quantity = each.quantity,
                .job = each.job,
                .cause = "chance",
@@ -383,46 +422,41 @@ std::string statistics_lines(const Statistics& each) {
     mean.slope = each.slope->value;
     mean.slope_error = each.slope->error;
   }
-  std::string text = text_of(mean);
+  rows.push_back(std::move(mean));
   for (const analysis::GroupScatter& group : each.scatter)
-    text += text_of({.row = "scatter",
-                     .quantity = each.quantity,
-                     .job = each.job,
-                     .cause = "chance",
-                     .realizations = group.size,
-                     .cpu_seconds = static_cast<double>(group.size) * each.cpu_seconds,
-                     .value = group.scatter,
-                     .error = group.error});
-  return text;
+    rows.push_back({.row = "scatter",
+                    .quantity = each.quantity,
+                    .job = each.job,
+                    .cause = "chance",
+                    .realizations = group.size,
+                    .cpu_seconds = static_cast<double>(group.size) * each.cpu_seconds,
+                    .value = group.scatter,
+                    .error = group.error});
 }
 
-void write_csv(const Assessment& assessment, const std::vector<Advice>& advised,
-               const std::filesystem::path& file) {
-  std::string text =
-      csv_row("row", "quantity", "tau_from", "tau_to", "r", "e", "n", "particles", "equilibrate",
-              "cause", "realizations", "cpu_seconds", "value", "error", "interval", "slope",
-              "slope_error", "correlation_time", "memory_bytes");
-  for (const Statistics& each : assessment.statistics) text += statistics_lines(each);
+std::vector<CostRow> rows_of(const Assessment& assessment, const std::vector<Advice>& advised) {
+  std::vector<CostRow> rows;
+  for (const Statistics& each : assessment.statistics) add_rows(each, rows);
   for (const BiasEstimate& each : assessment.shifts)
-    text += text_of({.row = "shift",
-                     .quantity = each.quantity,
-                     .job = each.job,
-                     .cause = each.change,
-                     .value = each.value,
-                     .error = each.error});
+    rows.push_back({.row = "shift",
+                    .quantity = each.quantity,
+                    .job = each.job,
+                    .cause = each.change,
+                    .value = each.value,
+                    .error = each.error});
   for (const Advice& each : advised) {
     if (!each.offer) continue;
-    text += text_of({.row = "advice",
-                     .quantity = each.quantity,
-                     .job = each.offer->job,
-                     .cause = "finite size",
-                     .realizations = each.offer->realizations,
-                     .cpu_seconds = each.offer->cpu_seconds,
-                     .value = each.offer->finite_size,
-                     .error = each.target,
-                     .memory_bytes = each.memory_bytes});
+    rows.push_back({.row = "advice",
+                    .quantity = each.quantity,
+                    .job = each.offer->job,
+                    .cause = "finite size",
+                    .realizations = each.offer->realizations,
+                    .cpu_seconds = each.offer->cpu_seconds,
+                    .value = each.offer->finite_size,
+                    .error = each.target,
+                    .memory_bytes = each.memory_bytes});
   }
-  write_file(file, text);
+  return rows;
 }
 
 // Quantities that are not among the usual ones.
@@ -445,6 +479,36 @@ void make_folder(const std::filesystem::path& folder) {
         fmt::format("{}: folder cannot be made: {}", folder.string(), error.message()));
 }
 
+void print_tables(const schema::Reader& store, const CostRequest& request,
+                  const std::vector<FinishedSeries>& finished, const Assessment& assessment,
+                  const std::vector<Advice>& advised, std::ostream& report) {
+  print_statistics(assessment, report);
+  print_shifts(assessment, report);
+  print_differences(paired_differences(finished, quantities_in(assessment)), report);
+  print_unknown(assessment, report);
+  print_rounding(store, report);
+  print_absent(assessment, report);
+  print_unanswered(assessment, request, advised, report);
+  print_advice(advised, report);
+}
+
+void print_files(const std::filesystem::path& out, const OutputFiles& pictures,
+                 std::ostream& report) {
+  fmt::print(report, "Written: {}\n", (out / "cost.csv").string());
+  for (const auto& picture : pictures.written())
+    fmt::print(report, "         {}\n", picture.string());
+  pictures.print_missing(report);
+}
+
+void print_json(const std::vector<CostRow>& rows, const std::filesystem::path& out,
+                const OutputFiles& pictures, std::ostream& report) {
+  auto files = nlohmann::ordered_json::array();
+  files.push_back((out / "cost.csv").string());
+  for (const auto& picture : pictures.written()) files.push_back(picture.string());
+  const nlohmann::ordered_json all{{"rows", json_of(rows)}, {"written", files}};
+  report << all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+}
+
 }  // namespace
 
 std::optional<CostTarget> target_from_text(const std::string& text) {
@@ -464,6 +528,8 @@ std::optional<CostTarget> target_from_text(const std::string& text) {
 
 int cost(const schema::Reader& store, const CostRequest& request, std::ostream& report) {
   const auto finished = read_finished_runs(store);
+  if (finished.empty() && request.json)
+    throw std::runtime_error("no cooling run is done: there is nothing to say what accuracy costs");
   if (finished.empty()) {
     fmt::print(report, "No cooling run is done. For what accuracy costs plan, for example\n{}\n",
                pilot_grid);
@@ -472,22 +538,16 @@ int cost(const schema::Reader& store, const CostRequest& request, std::ostream& 
   const Assessment assessment = assess(finished, store.targets(), asked_by(request));
   Forecast forecast(store.jobs());
   const auto advised = advice(assessment, request, forecast);
-  print_statistics(assessment, report);
-  print_shifts(assessment, report);
-  print_differences(paired_differences(finished, quantities_in(assessment)), report);
-  print_unknown(assessment, report);
-  print_rounding(store, report);
-  print_absent(assessment, report);
-  print_unanswered(assessment, request, advised, report);
-  print_advice(advised, report);
+  const auto rows = rows_of(assessment, advised);
+  if (!request.json) print_tables(store, request, finished, assessment, advised, report);
 
   make_folder(request.out);
-  write_csv(assessment, advised, request.out / "cost.csv");
-  fmt::print(report, "Written: {}\n", (request.out / "cost.csv").string());
+  write_file(request.out / "cost.csv", csv_of(rows));
   const OutputFiles pictures = draw_cost(assessment, request.out);
-  for (const auto& picture : pictures.written())
-    fmt::print(report, "         {}\n", picture.string());
-  pictures.print_missing(report);
+  if (request.json)
+    print_json(rows, request.out, pictures, report);
+  else
+    print_files(request.out, pictures, report);
   return pictures.is_complete() ? 0 : 1;
 }
 

@@ -29,6 +29,7 @@ struct CostTarget {
 struct CostRequest {
   std::filesystem::path out = "cost";    // made if it is not there
   std::vector<CostTarget> targets = {};  // else today's error, and a tenth of it
+  bool json = false;                     // report the rows of cost.csv as JSON instead of tables
 };
 
 // "a2=5e-4", or with a window of tau as a grid's target has one, "a2@3:8=5e-4"; at one tau

@@ -643,8 +643,9 @@ CLI::App* add_document(CLI::App& app, std::string& kind) {
 }
 
 // Those that print a table or the like, and print JSON when asked.
-constexpr std::string_view with_json[] = {"plan",   "run",   "status", "explain", "query", "theory",
-                                          "verify", "retry", "split",  "merge",   "recall"};
+constexpr std::string_view with_json[] = {"plan",  "run",    "status", "explain",
+                                          "query", "theory", "verify", "retry",
+                                          "split", "merge",  "recall", "cost"};
 
 std::string names_with_json() {
   return fmt::format("{}", fmt::join(with_json, ", "));
@@ -768,7 +769,8 @@ Parsed parse_command_line(int argc, const char* const* argv) {
     return exit_complete;
   }
 
-  plan.json = run.json = status.json = split.json = merge.json = recall.json = line.json;
+  plan.json = cost.json = run.json = status.json = split.json = merge.json = recall.json =
+      line.json;
   if (line.json) query.format = theory.format = RowFormat::json;
   line.store = plan.store = run.store = split.store = merge.store = recall.store =
       submit.cluster.store = report.store = status.store = verify.store = store;

@@ -38,6 +38,7 @@ int serve(const ReportOptions& options) {
 }  // namespace
 
 int report(const ReportOptions& options) {
+  require_page();
   return options.serve ? serve(options) : write(options);
 }
 

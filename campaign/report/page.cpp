@@ -149,8 +149,14 @@ std::string page_data(const schema::Reader& store) {
   return data.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
+void require_page() {
+  if (assets().empty())
+    throw PageMissing("this program was built without the libraries of the page: " +
+                      std::string(why_no_assets()));
+}
+
 std::string report_page(const schema::Reader& store, bool is_served) {
-  if (assets().empty()) throw PageMissing(std::string(why_no_assets()));
+  require_page();
   return filled(asset("page.html"), [&](std::string_view name) -> std::string {
     if (name == "data") return script_text(page_data(store));
     if (name == "averages") return base64(schema::averaged_tables(store));

@@ -14,6 +14,9 @@ struct PageMissing : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Throws PageMissing if the program has no page.
+void require_page();
+
 // What changes while a run is on, as JSON: where the campaign stands (overview_json), and of what
 // the page's first part is made.
 std::string page_data(const schema::Reader& store);

@@ -61,6 +61,9 @@ TEST_CASE("json: run, verify, retry, explain, split, merge and recall") {
   CHECK(ran["exit_code"] == 0);
   CHECK(ran["jobs"]["done"] == 6);
   CHECK(parsed(campaign(folder, {"verify", "--json"}))["sound"] == true);
+  const json costs = parsed(campaign(folder, {"cost", "--json"}));
+  CHECK(costs["rows"][0]["row"] == "mean");
+  CHECK(costs["written"][0] == "cost/cost.csv");
   CHECK(parsed(campaign(folder, {"retry", "--json"}))["reopened"] == 0);
   CHECK(parsed(campaign(folder, {"query", "SELECT 1 AS one", "--json"}))[0]["one"] == 1);
   CHECK(parsed(campaign(folder, {"theory", "--list", "--json"})).size() > 5);

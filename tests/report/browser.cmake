@@ -14,6 +14,12 @@ foreach(program npm node chromium)
   endif()
 endforeach()
 
+execute_process(COMMAND ${CAMPAIGN} report --store ${WORK}/nothing.db ERROR_VARIABLE answer)
+if(answer MATCHES "built without")
+  message("Skipped: ${answer}")
+  return()
+endif()
+
 file(MAKE_DIRECTORY ${WORK})
 file(COPY ${SOURCE}/package.json ${SOURCE}/package-lock.json ${SOURCE}/page.mjs DESTINATION ${WORK})
 if(NOT EXISTS ${WORK}/node_modules OR ${WORK}/package-lock.json IS_NEWER_THAN ${WORK}/node_modules)

@@ -4,7 +4,8 @@
 //   chart.draw({curves, x: {label, log, time}, y: {label, log}, errors: true});
 //
 // A curve: {key, label, colour, x, y, error, symbols, stepped, dash}. error may be missing, or have
-// values that are not finite where none is known. Curves whose key is in `hidden` are not drawn.
+// values that are not finite where none is known. Curves whose key is in `hidden` are not drawn. A curve
+// with `of` goes along with the curve of that key: it is shown and hidden with it, and is not read.
 
 class Chart {
   constructor(container, name, {legend = true, zoom = true, height = 400, onToggle = null} = {}) {
@@ -100,8 +101,8 @@ class Chart {
       scales: {x: {time: x.time === true, distr: x.log ? 3 : 1}, y: {distr: y.log ? 3 : 1}},
       axes: [axis("x", x), axis("y", y)],
       series: [{}, ...this.curves.map((curve) => ({
-        label: curve.label, stroke: curve.colour, width: curve.symbols ? 1 : 1.7, dash: curve.dash,
-        spanGaps: !curve.stepped, show: !this.hidden.has(curve.key),
+        label: curve.label, stroke: curve.colour, width: curve.symbols || curve.of ? 1 : 1.7, dash: curve.dash,
+        spanGaps: !curve.stepped, show: !this.isHidden(curve),
         paths: curve.stepped ? uPlot.paths.stepped({align: 1}) : undefined,
         fill: curve.stepped ? withAlpha(curve.colour, 0.15) : undefined,
         points: curve.symbols ? {show: true, size: 7, fill: curve.colour} : {show: false},
@@ -180,7 +181,7 @@ class Chart {
     if (left >= 0)
       for (let k = 0; k < this.curves.length; ++k) {
         const i = idxs?.[k + 1];
-        if (!self.series[k + 1].show || i === null || i === undefined || this.data[k + 1][i] === null) continue;
+        if (this.curves[k].of || !self.series[k + 1].show || i === null || i === undefined || this.data[k + 1][i] === null) continue;
         const dx = self.valToPos(this.data[0][i], "x") - left;
         const dy = self.valToPos(this.data[k + 1][i], "y") - top;
         const distance = Math.hypot(dx, dy);
@@ -220,7 +221,7 @@ class Chart {
 
   // To the next curve that is shown, and along it to the next point that has a value.
   move(curves, points, times) {
-    const shown = this.curves.map((curve, k) => k).filter((k) => !this.hidden.has(this.curves[k].key));
+    const shown = this.curves.map((curve, k) => k).filter((k) => !this.curves[k].of && !this.isHidden(this.curves[k]));
     if (shown.length === 0) return;
     let place = Math.max(0, shown.indexOf(this.at?.k ?? -1));
     place = (place + curves + shown.length) % shown.length;
@@ -310,27 +311,32 @@ class Chart {
 
   // ---- legend -----------------------------------------------------------------------------------
 
+  isHidden(curve) {
+    return this.hidden.has(curve.of ?? curve.key);
+  }
+
   drawLegend() {
     if (!this.legend) return;
-    this.legend.replaceChildren(...this.curves.map((curve, k) => {
+    this.legend.replaceChildren(...this.curves.filter((curve) => !curve.of).map((curve) => {
       const line = make("i");
       line.style.borderTopColor = curve.colour;
       if (curve.dash) line.style.borderTopStyle = "dashed";
       return make("button", {type: "button", "aria-pressed": String(!this.hidden.has(curve.key)),
-        onclick: () => this.toggle(k)}, line, curve.label);
+        onclick: (event) => this.toggle(curve.key, event.currentTarget)}, line, curve.label);
     }));
   }
 
-  toggle(k) {
-    const {key} = this.curves[k];
+  toggle(key, button) {
     this.hidden.has(key) ? this.hidden.delete(key) : this.hidden.add(key);
-    this.uplot?.setSeries(k + 1, {show: !this.hidden.has(key)});
-    this.legend.children[k].setAttribute("aria-pressed", String(!this.hidden.has(key)));
+    this.curves.forEach((curve, k) => {
+      if ((curve.of ?? curve.key) === key) this.uplot?.setSeries(k + 1, {show: !this.isHidden(curve)});
+    });
+    button.setAttribute("aria-pressed", String(!this.hidden.has(key)));
     this.onToggle?.();
   }
 
   shown() {
-    return this.curves.filter(({key}) => !this.hidden.has(key));
+    return this.curves.filter((curve) => !curve.of && !this.isHidden(curve));
   }
 }
 

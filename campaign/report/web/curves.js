@@ -16,11 +16,33 @@ const gasNames = ["d", "e", "n", "particles", "equilibrate", "sample_every", "ef
 const filterLabels = {d: "d", e: "e", n: "n", particles: "N", equilibrate: "equilibrate",
   sample_every: "sample every", effects: "effects"};
 
+// Theory that needs no more than the gas, drawn dotted beside each curve. Others: campaign theory.
+const isPlain = (gas) => gas.e !== null && gas.effects === "{}";
+const theories = {
+  temperature: {label: "Haff's law", holds: (gas) => isPlain(gas) && gas.tau[0] === 0,
+    value: (gas, tau) => gas.y[0] * Math.exp(-(1 - gas.e * gas.e) / gas.d * tau)},
+  gamma_ratio: {label: "Haff's law", holds: isPlain, value: () => 1},
+  rho: {label: "Gaussian", holds: () => true, value: (gas, c) => Math.exp(-c * c)},
+};
+
+// A colour for each value of the parameter that has most of them among these gases, a dash for each of
+// the next one.
+function stylesOf(gases) {
+  const values = new Map(gasNames.map((name) => [name, [...new Set(gases.map((gas) => gas[name]))]
+    .sort((a, b) => typeof a === "number" ? a - b : String(a).localeCompare(String(b)))]));
+  const [first, second] = [...gasNames].sort((a, b) => values.get(b).length - values.get(a).length);
+  const dashes = [undefined, [8, 4], [12, 3, 3, 3], [5, 5], [12, 3, 3, 3, 3, 3]];
+  return (gas) => ({
+    colour: colourOf(values.get(first).indexOf(gas[first]), values.get(first).length),
+    dash: dashes[values.get(second).indexOf(gas[second]) % dashes.length],
+  });
+}
+
 class Curves {
   constructor(database) {
     this.database = database;
     this.off = new Map();  // by name of a parameter: the values that are switched off
-    this.chosen = {quantity: null, x: "tau", tau: null, logX: false, logY: false, errors: true};
+    this.chosen = {quantity: null, x: "tau", tau: null, logX: false, logY: false, errors: true, theory: true};
     this.chart = new Chart(byId("curve-chart"), "Averages over realizations",
       {height: 460, onToggle: () => {}});
     this.chart.tools.append(make("button", {type: "button", onclick: () => this.save()}, "Download CSV"));
@@ -139,8 +161,8 @@ class Curves {
           (value) => change("tau", Number(value), true))
         : select("against", [["tau", "τ"], ["haff", "2γ₀τ"], ...table === "mean_series" && name !== "time" ? [["time", "t"]] : []],
           this.chosen.x, (value) => change("x", value)),
-      box("logX", "log x"), box("logY", "log y"), box("errors", "errors"),
-    ]);
+      box("logX", "log x"), box("logY", "log y"), box("errors", "errors"), theories[name] ? box("theory", theories[name].label) : null,
+    ].filter(Boolean));
   }
 
   // A box for each value of a parameter that has more than one.
@@ -189,11 +211,17 @@ class Curves {
     const quantity = this.quantity();
     const shown = this.gases.filter((gas) => gasNames.every((name) => !this.off.get(name)?.has(gas[name])));
     const isProfile = quantity.table === "mean_profiles";
-    const curves = shown.map((gas, k) => ({
-      key: gas.key, gas, label: this.labelOf(gas, shown), colour: colourOf(k, shown.length),
-      x: this.xOf(gas), y: gas.y,
+    const style = stylesOf(shown);
+    const curves = shown.map((gas) => ({
+      key: gas.key, gas, label: this.labelOf(gas, shown), ...style(gas), x: this.xOf(gas), y: gas.y,
       error: gas.se.map((se, i) => se === null ? NaN : se * studentFactor(gas.realizations[i])),
     }));
+    const theory = theories[quantity.name];
+    if (theory && this.chosen.theory)
+      for (const curve of curves.slice())
+        if (theory.holds(curve.gas))
+          curves.push({key: "theory " + curve.key, of: curve.key, label: theory.label, colour: curve.colour,
+            dash: [2, 3], x: curve.x, y: curve.gas.tau.map((tau) => theory.value(curve.gas, tau))});
     const labels = {tau: "τ, collisions per particle", time: "t [σ (m/E(0))^½]", haff: "2γ₀τ"};
     this.chart.draw({curves, errors: this.chosen.errors,
       x: {label: isProfile ? profileX[quantity.name] ?? "x" : labels[this.chosen.x], log: this.chosen.logX},

@@ -8,7 +8,7 @@ function numberText(value, digits = 6) {
   if (!Number.isFinite(value)) return String(value);
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size < 1e-4 || size >= 1e7) return value.toExponential(Math.min(digits - 1, 3));
+  if (size < 1e-4 || size >= 1e7) return Number(value.toPrecision(Math.min(digits, 4))).toExponential();
   return String(Number(value.toPrecision(digits)));
 }
 
