@@ -5,117 +5,40 @@
 //   crash power --seed 1 --only 37              one of them again; its folder is kept
 //   crash fail --seed 1 --cases 100             a call that fails, once or from then on
 //   crash fail --seed 1 --only 37
+//   crash fail --every sync                     each call of a kind in turn, once and from then on
+//   crash storm --seed 1 --storms 10            many commands at once, killed at any moment
 //
 // An image or a case follows from its seed and its number alone; the record that images are made
 // from is that of several processes, and differs from one run to the next in the order of what they
 // wrote.
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 
+#include "crash/little_campaign.hpp"
 #include "crash/power_loss.hpp"
+#include "crash/storm.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace haff::tests {
 namespace {
 
-constexpr const char* program = HAFF_CAMPAIGN_FAULTY;
-constexpr const char* store_name = "c.db";
-
-// Every table has rows: profiles, fields, an effect with a memory of its own, results.
-constexpr const char* grid = R"({
-  "n": 0.2, "N": 108, "tau_max": 30, "equilibrate": 10, "grids": [
-  {"e": 0.8, "seeds": 2, "profiles_every": 10, "fields_at": [20],
-   "observables": ["temperature", "laguerre", "distribution", "correlations", "fields"]},
-  {"e": 0.9, "seeds": 1, "effects": {"roughness": {"beta": 0.5, "q": 0.4}}}]})";
-
-struct Result {
-  int exit_code = 0;  // 128 + signal if one ended it; 124 after a minute
-  std::string said;
-};
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-Result shell(const std::filesystem::path& folder, const std::string& words,
-             const std::string& environment = "") {
-  const std::string command =
-      fmt::format("cd '{}' && {} timeout -k 1 60 '{}' --store {} {} > said 2>&1", folder.string(),
-                  environment, program, store_name, words);
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-          text_of(folder / "said")};
-}
-
-// All that the physics of a store is, reals with all their digits.
-std::string rows(const std::filesystem::path& folder) {
-  const SQLite::Database store((folder / store_name).string(), SQLite::OPEN_READONLY, 10'000);
-  std::string all;
-  for (const char* sql :
-       {"SELECT identity, status, quote(samples.tau), quote(time), quote(temperature), "
-        "quote(gamma_ratio), quote(collision_rate), quote(pressure), quote(a2), quote(a6), "
-        "quote(rotational_temperature) FROM samples JOIN jobs USING (job_id) ORDER BY 1, "
-        "samples.tau",
-        "SELECT identity, name, quote(profiles.tau), quote(x), quote(value) FROM profiles JOIN "
-        "jobs USING (job_id) ORDER BY identity, name, profiles.tau, x",
-        "SELECT identity, name, quote(fields.tau), hex(data) FROM fields JOIN jobs USING (job_id) "
-        "ORDER BY identity, name, fields.tau",
-        "SELECT identity, quote(tau_c), quote(time_c) FROM results JOIN jobs USING (job_id) ORDER "
-        "BY identity"}) {
-    SQLite::Statement row(store, sql);
-    while (row.executeStep()) {
-      for (int k = 0; k < row.getColumnCount(); ++k) all += row.getColumn(k).getString() + ' ';
-      all += '\n';
-    }
-  }
-  return all;
-}
-
-bool contains(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
-}
-
-void must_succeed(const Result& result) {
-  if (result.exit_code != 0) throw std::runtime_error("the campaign itself fails: " + result.said);
-}
-
-// Plans and runs again until all is done: what is wrong on the way, or nothing.
-std::optional<std::string> complete(const std::filesystem::path& folder, bool may_lack_jobs,
-                                    const std::string& expected) {
-  if (may_lack_jobs)
-    if (const Result plan = shell(folder, "plan grid.json"); plan.exit_code != 0)
-      return "the next plan fails: " + plan.said;
-  Result run = shell(folder, "run --workers 1");
-  if (run.exit_code == 1 && contains(run.said, "retry")) {
-    shell(folder, "retry");
-    run = shell(folder, "run --workers 1");
-  }
-  if (run.exit_code != 0) return "the next run fails: " + run.said;
-  if (rows(folder) != expected) return "the rows differ in the end";
-  if (const Result end = shell(folder, "verify"); end.exit_code != 0)
-    return "in the end: " + end.said;
-  return std::nullopt;
-}
+// [collisions per particle]
+constexpr double tau_max = 30;
+constexpr double tau_max_of_a_storm = 300;  // long enough to be killed in many places
 
 // ---- power loss -------------------------------------------------------------------------------
 
 class PowerLoss {
  public:
   PowerLoss() {
-    std::ofstream(folder_ / "grid.json") << grid;
+    std::ofstream(folder_ / "grid.json") << grid(tau_max, 1);
     const std::string traced = "HAFF_TRACE='" + (folder_ / "trace").string() + "'";
     must_succeed(shell(folder_.path(), "plan grid.json", traced));
     planned_ = read_trace(folder_ / "trace").size();
@@ -128,7 +51,7 @@ class PowerLoss {
 
   std::optional<std::string> fault(std::mt19937_64& random,
                                    const std::filesystem::path& folder) const {
-    std::ofstream(folder / "grid.json") << grid;
+    std::ofstream(folder / "grid.json") << grid(tau_max, 1);
     const std::size_t count = moment(random);
     const auto fate = static_cast<Fate>(random() % fates);
     make_image(operations_, count, fate, random, folder, store_name);
@@ -184,7 +107,7 @@ const std::vector<Failure> failures{
 class FailingCalls {
  public:
   FailingCalls() {
-    std::ofstream(folder_ / "grid.json") << grid;
+    std::ofstream(folder_ / "grid.json") << grid(tau_max, 1);
     must_succeed(shell(folder_.path(), "plan grid.json"));
     std::filesystem::copy_file(folder_ / store_name, folder_ / "planned.db");
     must_succeed(shell(folder_.path(), "run --workers 1"));
@@ -193,39 +116,84 @@ class FailingCalls {
 
   std::optional<std::string> fault(std::mt19937_64& random,
                                    const std::filesystem::path& folder) const {
-    constexpr std::array commands{"plan grid.json",
-                                  "run --workers 1",
-                                  "verify",
-                                  "status",
-                                  "retry",
-                                  "backup copy.db",
-                                  "query 'SELECT * FROM mean_tau_c'"};
     const std::string command = commands[random() % commands.size()];
-    const bool plans = command.starts_with("plan");
-    const bool runs = command.starts_with("run");
     const Failure& failure = failures[random() % failures.size()];
     const int error = failure.errors[random() % failure.errors.size()];
     // The first ones more often: opening a store is full of corners.
     const auto number =
         1 + random() % (random() % 2 == 0 ? static_cast<unsigned>(failure.calls)
                                           : static_cast<unsigned>(failure.calls) / 4 + 1);
-    // EINTR for ever is no failure, but a machine that does nothing else.
-    const bool for_ever = random() % 2 == 0 && error != EINTR;
-    const char* where = runs && random() % 2 == 0 ? "worker" : "main";
+    const bool for_ever = random() % 2 == 0;
+    const bool in_worker = random() % 2 == 0;
+    return fault({command, failure.kind, number, error, for_ever, in_worker}, folder);
+  }
 
-    std::ofstream(folder / "grid.json") << grid;
+  // Each call of a kind in turn, of each command: how many ended wrong.
+  int every(const std::string& kind, unsigned stride) const {
+    int faults = 0;
+    for (const Failure& failure : failures)
+      for (const char* command : commands)
+        for (const int error : failure.errors)
+          for (const bool for_ever : {false, true})
+            for (const bool in_worker : {false, true})
+              if (failure.kind == kind && (!in_worker || is_run(command)))
+                faults += all_of({command, kind, 1, error, for_ever, in_worker}, stride);
+    return faults;
+  }
+
+  int failed() const { return failed_; }
+
+ private:
+  struct Case {
+    std::string command, kind;
+    unsigned long number;
+    int error;
+    bool for_ever, in_worker;
+  };
+
+  static constexpr std::array commands{"plan grid.json",
+                                       "run --workers 1",
+                                       "verify",
+                                       "status",
+                                       "retry",
+                                       "backup copy.db",
+                                       "query 'SELECT * FROM mean_tau_c'"};
+
+  static bool is_run(const std::string& command) { return command.starts_with("run"); }
+
+  int all_of(Case one, unsigned stride) const {
+    int faults = 0;
+    for (;; one.number += stride) {
+      const TemporaryFolder folder;
+      const int before = failed_;
+      if (const auto wrong = fault(one, folder.path())) {
+        ++faults;
+        fmt::print("{}\n", *wrong);
+      }
+      if (failed_ == before) return faults;  // the command makes no so many calls
+    }
+  }
+
+  std::optional<std::string> fault(const Case& one, const std::filesystem::path& folder) const {
+    const bool plans = one.command.starts_with("plan");
+    const bool runs = is_run(one.command);
+    // EINTR for ever is no failure, but a machine that does nothing else.
+    const bool for_ever = one.for_ever && one.error != EINTR;
+    const char* where = runs && one.in_worker ? "worker" : "main";
+
+    std::ofstream(folder / "grid.json") << grid(tau_max, 1);
     if (!plans)
       std::filesystem::copy_file(folder_ / (runs ? "planned.db" : store_name), folder / store_name);
     const Result result = shell(
-        folder, command,
-        fmt::format("HAFF_FAIL={}:{}:{}:{} HAFF_FAIL_IN={} HAFF_FAILED='{}'", failure.kind, number,
-                    error, for_ever ? "ever" : "once", where, (folder / "failed").string()));
+        folder, one.command,
+        fmt::format("HAFF_FAIL={}:{}:{}:{} HAFF_FAIL_IN={} HAFF_FAILED='{}'", one.kind, one.number,
+                    one.error, for_ever ? "ever" : "once", where, (folder / "failed").string()));
     if (!std::filesystem::exists(folder / "failed")) return std::nullopt;  // there was no such call
     ++failed_;
     const auto named = [&](const std::string& what) {
       return fmt::format("{}: {} {} of {} fails {} with errno {}, exit {}: {}\nIt said: {}",
-                         command, failure.kind, number, where, for_ever ? "for ever" : "once",
-                         error, result.exit_code, what, result.said);
+                         one.command, one.kind, one.number, where, for_ever ? "for ever" : "once",
+                         one.error, result.exit_code, what, result.said);
     };
     if (result.exit_code != 0 && result.exit_code != 1)
       return named("0 or 1 is expected: 2 is for what the user types");
@@ -236,9 +204,6 @@ class FailingCalls {
     return std::nullopt;
   }
 
-  int failed() const { return failed_; }
-
- private:
   TemporaryFolder folder_;
   std::string expected_;
   mutable int failed_ = 0;
@@ -250,6 +215,8 @@ struct Options {
   unsigned long seed = 1;
   int count = 40;
   std::optional<int> only;
+  std::string every;  // kind of calls
+  unsigned stride = 1;
 };
 
 template <class Trial>
@@ -285,16 +252,34 @@ int main(int argc, char** argv) {
   Options options;
   auto* power = app.add_subcommand("power", "Images of the disk after power loss");
   auto* fail = app.add_subcommand("fail", "A read, write, sync, ... that fails");
-  for (auto* command : {power, fail}) {
+  auto* storm = app.add_subcommand("storm", "Commands at once, killed at any moment");
+  fail->add_option("--every", options.every, "Each call of this kind in turn")
+      ->check(CLI::IsMember({"read", "write", "sync", "truncate", "open", "delete", "allocate"}));
+  fail->add_option("--stride", options.stride, "Every K-th of them alone")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  for (auto* command : {power, fail, storm}) {
     command->add_option("--seed", options.seed, "Chooses what happens")->capture_default_str();
-    command->add_option(command == power ? "--images" : "--cases", options.count, "How many")
+    command
+        ->add_option(command == power  ? "--images"
+                     : command == fail ? "--cases"
+                                       : "--storms",
+                     options.count, "How many")
         ->capture_default_str();
     command->add_option("--only", options.only, "The one of this number");
   }
   CLI11_PARSE(app, argc, argv);
   if (power->parsed()) return try_all(PowerLoss(), options, "power");
+  if (storm->parsed()) {
+    const Storm storms(tau_max_of_a_storm);
+    const int result = try_all(storms, options, "storm");
+    fmt::print("{} kills\n", storms.kills());
+    return result;
+  }
   const FailingCalls calls;
-  const int result = try_all(calls, options, "fail");
+  const int result = !options.every.empty()
+                         ? (calls.every(options.every, options.stride) == 0 ? 0 : 1)
+                         : try_all(calls, options, "fail");
   fmt::print("{} calls failed\n", calls.failed());
   return result;
 }
