@@ -17,12 +17,11 @@ namespace haff::schema {
 
 namespace {
 
-// Stores of this version and later are plain files when nothing runs on them; older programs left
-// them prepared for a log.
-constexpr int plain_at_rest_since = 12;  // 016-plain.sql
-
 // SQLite's own limit is 1 GB. The largest row holds a chunk of a checkpoint. [bytes]
 constexpr int longest_row = 4 * static_cast<int>(chunk_bytes);
+
+constexpr const char* log_is_open = "UPDATE log SET is_open = 1 WHERE is_open = 0";
+constexpr const char* log_is_closed = "UPDATE log SET is_open = 0 WHERE is_open = 1";
 
 std::string plan_first(const std::filesystem::path& path) {
   return "; make it with: campaign plan GRID.json --store " + path.string();
@@ -208,7 +207,8 @@ void Database::open_to_read() {
   const auto known = scripts().size();
   must_not_be_newer(version, known, path_);
   must_have_our_schema(*sqlite_, version, path_);
-  lacks_log_ = version >= plain_at_rest_since && !log_exists && mode(*sqlite_) == "wal";
+  lacks_log_ = version >= version_with("018-log.sql") && !log_exists && mode(*sqlite_) == "wal" &&
+               sqlite_->execAndGet("SELECT is_open FROM log").getInt() == 1;
   if (version < static_cast<int>(known)) {
     original_ = std::move(sqlite_);
     sqlite_ = copy_brought_forward(*original_, path_);
@@ -314,7 +314,9 @@ void Database::open_log() {
                        "store on a local disk");
     sqlite_->exec("PRAGMA synchronous = NORMAL");
     remember_log();
+    sqlite_->exec(log_is_open);
   });
+  copy_log();  // so that the file says it before anything else is written
 }
 
 // SQLite opens the log when it first needs it, and keeps that file open from then on.
@@ -375,6 +377,7 @@ bool Database::close_log(std::chrono::milliseconds patience) {
   const auto until = std::chrono::steady_clock::now() + patience;
   while (true) try {
       if (mode(*sqlite_) != "wal") return true;
+      sqlite_->exec(log_is_closed);
       if (sqlite_->execAndGet("PRAGMA journal_mode = DELETE").getString() != "wal") {
         log_identity_.reset();
         return true;
@@ -383,7 +386,10 @@ bool Database::close_log(std::chrono::milliseconds patience) {
     } catch (const SQLite::Exception& error) {
       if (is_displaced()) return false;
       if ((error.getErrorCode() & 0xff) != SQLITE_BUSY) raise(path_, error);
-      if (std::chrono::steady_clock::now() >= until) return false;
+      if (std::chrono::steady_clock::now() >= until) {
+        sqlite_->tryExec(log_is_open);
+        return false;
+      }
       std::this_thread::sleep_for(pause);
     }
 }

@@ -130,11 +130,9 @@ void print(const Findings& found, const std::filesystem::path& path) {
     say("A damaged checkpoint is never used; {} lets its job be computed again\n",
         command_text("retry", path));
   if (found.lacks_log)
-    say("{0}: the log that belongs to it, {0}-wal, is not there: it was copied while a run was on, "
-        "or "
-        "power failed at the end of one. Its newest rows may be missing; what is, is computed "
-        "again "
-        "by: {1}\nA whole copy is made by: campaign backup FILE\n",
+    say("{0}: its log, {0}-wal, is not there: it was copied while a run was on, or power failed.\n"
+        "Its newest rows may be missing; {1} computes them again\n"
+        "A whole copy is made by: campaign backup FILE\n",
         path.string(), command_text("run", path));
   if (found.file.empty() && !(found.jobs.empty() && found.rows.empty() && found.tables.empty()))
     say("{} computes such jobs again, and puts right what differs\n",

@@ -66,6 +66,15 @@ std::vector<std::string_view> scripts() {
   return texts;
 }
 
+int version_with(std::string_view script) {
+  int version = 0;
+  for (const Embedded& file : embedded()) {
+    if (file.name.ends_with(".sql")) ++version;
+    if (file.name == script) break;
+  }
+  return version;
+}
+
 int version_of(SQLite::Database& sqlite) {
   return number(sqlite, "PRAGMA user_version");
 }

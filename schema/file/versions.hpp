@@ -19,6 +19,9 @@ inline constexpr int application_id = 0x48616666;
 // new script, or stores that have them as they were count as changed by another program.
 std::vector<std::string_view> scripts();
 
+// The version of a store that has seen this script, and none after it.
+int version_with(std::string_view script);
+
 int version_of(SQLite::Database& sqlite);
 
 // No table, no version, no mark: a file that SQLite has yet to write to.
