@@ -74,7 +74,7 @@ const char* name(Part part) {
 // ---- rows -------------------------------------------------------------------------------------
 
 DigestedTable::DigestedTable(SQLite::Database& sqlite, const char* name) : name_(mix(fnv(name))) {
-  SQLite::Statement info(sqlite, "SELECT name, dflt_value FROM pragma_table_info(?)");
+  SQLite::Statement info(sqlite, "SELECT name, dflt_value, type FROM pragma_table_info(?)");
   info.bind(1, name);
   while (info.executeStep()) {
     const std::string column = info.getColumn(0).getString();
@@ -85,7 +85,8 @@ DigestedTable::DigestedTable(SQLite::Database& sqlite, const char* name) : name_
         info.getColumn(1).isNull() ? "NULL" : info.getColumn(1).getString();
     SQLite::Statement value(sqlite, "SELECT " + otherwise);
     value.executeStep();
-    columns_.push_back({fnv(column), word(value.getColumn(0))});
+    const bool is_real = info.getColumn(2).getString() == "REAL";
+    columns_.push_back({fnv(column), is_real, word(value.getColumn(0), is_real)});
   }
 }
 
@@ -96,11 +97,16 @@ DigestedTable::Word DigestedTable::word(const SQLite::Column& value) {
   return {value.isText() ? 3U : 4U, fnv(value.getBlob(), value.getBytes())};
 }
 
+DigestedTable::Word DigestedTable::word(const SQLite::Column& value, bool is_real) {
+  if (!is_real || !value.isInteger()) return word(value);
+  return {2, std::bit_cast<std::uint64_t>(static_cast<double>(value.getInt64()))};
+}
+
 std::uint64_t DigestedTable::digest(SQLite::Statement& row) const {
   static thread_local std::vector<Word> words;
   words.clear();
   for (int k = 0; k < static_cast<int>(columns_.size()); ++k)
-    words.push_back(word(row.getColumn(k)));
+    words.push_back(word(row.getColumn(k), columns_[static_cast<std::size_t>(k)].is_real));
   return digest(words);
 }
 

@@ -46,11 +46,14 @@ class DigestedTable {
     bool operator==(const Word&) const = default;
   };
   static Word word(const SQLite::Column& value);
+  // A column of reals may give a whole number as an integer: RETURNING does.
+  static Word word(const SQLite::Column& value, bool is_real);
   std::uint64_t digest(const std::vector<Word>& row) const;
 
  private:
   struct Column {
     std::uint64_t name = 0;
+    bool is_real = false;
     Word by_default;
   };
   std::uint64_t name_;
