@@ -95,7 +95,7 @@ double seconds_since_1970() {
 }
 
 // As the content of an element `script`, where nothing but "</" and "<!--" could end it early.
-std::string script_text(std::string json) {
+std::string script_text(std::string_view json) {
   std::string text;
   for (const char character : json)
     if (character == '<')

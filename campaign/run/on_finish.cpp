@@ -40,6 +40,7 @@ std::vector<std::string> environment_with(const RunOutcome& outcome) {
 pid_t start(const std::string& command, const RunOutcome& outcome) {
   std::vector<std::string> environment = environment_with(outcome);
   std::vector<char*> entries;
+  entries.reserve(environment.size() + 1);
   for (std::string& entry : environment) entries.push_back(entry.data());
   entries.push_back(nullptr);
   std::string shell = "/bin/sh", option = "-c", text = command;
