@@ -138,6 +138,7 @@ class Styles {
   }
 
   const std::optional<ToneScale>& scale() const { return scale_; }
+  std::string tone() const { return scale_ ? primary_ : std::string(); }
 
   void apply(const GasCurve& gas, Curve& curve) {
     constexpr std::array symbols{7, 5, 9, 13, 11, 6, 4, 8, 12, 10};  // gnuplot's, filled first
@@ -426,8 +427,9 @@ std::string realizations_text(const std::vector<GasCurve>& curves, bool is_diffe
                         : fmt::format("means of {} to {} {}", fewest, most, what);
 }
 
+// `tone` is the parameter that a scale of tones shows, empty without one.
 std::string caption_of(const Question& question, const Topic& topic, const GasCurves& curves,
-                       const std::vector<std::string>& names) {
+                       const std::vector<std::string>& names, const std::string& tone) {
   std::string common;
   for (const auto& [name, value] : curves.all.front().scene.parameters) {
     const bool usual = name == "equilibrate" || name == "sample_every";
@@ -443,6 +445,12 @@ std::string caption_of(const Question& question, const Topic& topic, const GasCu
   else if (topic.window)
     text += fmt::format("means over tau {:g} to {:g}; ", topic.window->first, topic.window->second);
   text += common + sentence + ".";
+  // With a scale of tones the legend does not say what else sets curves apart.
+  std::string rest;
+  for (const std::string& name : names)
+    if (name != tone) rest += fmt::format("{}{}", rest.empty() ? "" : ", ", name);
+  if (!tone.empty() && !rest.empty())
+    text += fmt::format(" Curves of one tone differ in {}.", rest);
   if (is_difference)
     text += fmt::format(" Less what the gas with {} = {} has, seed by seed.",
                         question.difference->first, question.difference->second);
@@ -513,7 +521,7 @@ Answer answer(const schema::Reader& store, const Question& question) {
   set_y_range(panel.curves, curves.all.size(), panel.y);
   const int width = place_legend(panel);
   result.plot = {.panels = {std::move(panel)},
-                 .caption = caption_of(question, topic, curves, names),
+                 .caption = caption_of(question, topic, curves, names, styles.tone()),
                  .width = width};
   return result;
 }

@@ -118,6 +118,7 @@ class Drawing {
     draw_both(plot, file, files_);
     made_.insert(stem);
     entry.caption = printable(plot.caption);
+    entry.width = plot.width;
     std::vector<std::string> endings;
     for (std::size_t i = before; i < files_.written().size(); ++i) {
       const auto& written = files_.written()[i];

@@ -25,13 +25,14 @@ constexpr std::string_view style = R"(
              gap: 2rem; }
   figure { margin: 0; min-width: 0; border: 1px solid #ddd; border-radius: 4px;
            padding: clamp(0.4rem, 2vw, 1rem); }
-  figure img { width: 100%; min-width: 22rem; height: auto; display: block; }
+  figure img { width: 100%; height: auto; display: block; }
   figcaption { font-size: 0.88rem; color: #444; margin-top: 0.5rem; }
+  .broad { grid-column: 1 / -1; }
   figcaption p { margin: 0.3rem 0 0; }
   .paper { color: #0072b2; }
   .absent { color: #777; font-style: italic; }
   .wide { overflow-x: auto; }
-  table { border-collapse: collapse; font-size: 0.88rem; }
+  table { border-collapse: collapse; font-size: 0.88rem; min-width: 60rem; }
   th, td { text-align: left; padding: 0.25rem 0.8rem 0.25rem 0; border-bottom: 1px solid #e4e4e4;
            vertical-align: top; }
   td.number { text-align: right; white-space: nowrap; }
@@ -73,14 +74,18 @@ std::string table_text(const std::vector<Comparison>& table) {
 }
 
 std::string figure_text(const FigureEntry& figure) {
-  std::string text = fmt::format("<figure id=\"{}\">\n<h3>{}</h3>\n", xml_escaped(figure.name),
-                                 xml_escaped(figure.title));
+  // A broad picture has a row of its own; on a phone it scrolls rather than shrinks beyond half.
+  constexpr int usual_width = 900;
+  std::string text =
+      fmt::format("<figure id=\"{}\"{}>\n<h3>{}</h3>\n", xml_escaped(figure.name),
+                  figure.width > usual_width ? " class=\"broad\"" : "", xml_escaped(figure.title));
   if (figure.picture.empty())
     text += fmt::format("<p class=\"absent\">{}</p>\n", xml_escaped(figure.caption));
   else
-    text +=
-        fmt::format("<div class=\"wide\"><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a></div>\n",
-                    figure.picture, xml_escaped(figure.title));
+    text += fmt::format(
+        "<div class=\"wide\"><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" "
+        "style=\"min-width: {2}px; max-width: {3}px\"></a></div>\n",
+        figure.picture, xml_escaped(figure.title), figure.width / 2, figure.width * 3 / 2);
   text += "<figcaption>";
   // A PNG stands in for an SVG that could not be drawn, and has the caption in it.
   if (figure.picture.ends_with(".svg")) text += xml_escaped(figure.caption) + "\n";

@@ -14,7 +14,8 @@ struct FigureEntry {
   std::string name = {};  // of its files
   std::string title = {};
   std::string picture = {};    // file name, beside the page; empty: not drawn
-  std::string table = {};      // likewise, CSV
+  int width = 640;             // of the picture [pixels]
+  std::string table = {};      // a file name likewise, CSV
   std::string caption = {};    // or, not drawn, why
   std::string published = {};  // what the paper shows there
 };

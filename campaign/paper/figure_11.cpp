@@ -1,14 +1,13 @@
 // Figure 11: the local decay rate gamma(tau)/gamma_0 in the early stage. It falls below one from
 // the start, as the energy equation says, and far more than Enskog-Boltzmann theory allows; of
 // that the curve shown is the one that deviates most (e = 0.865).
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/theory/energy_equation.hpp"
+#include "campaign/paper/decay_rates.hpp"
 #include "campaign/paper/figure.hpp"
-#include "campaign/paper/interval_means.hpp"
 #include "campaign/paper/uncorrelated.hpp"
 
 namespace haff::campaign {
@@ -23,34 +22,6 @@ double early(const std::vector<MeanSeries>& chosen) {
   return std::min(chosen.front().tau.back(), 10 * std::ceil(crossover / 10));
 }
 
-// Samples of tau = 1 crowd where curves lie close together.
-constexpr Intervals intervals{.from = 4, .width = 3};
-
-std::vector<double> times(double end) {
-  constexpr int points = 200;
-  std::vector<double> tau;
-  for (int i = 0; i <= points; ++i) tau.push_back(end * i / points);
-  return tau;
-}
-
-// With the loss of Enskog-Boltzmann theory as a line, without it, as the paper has it, dotted.
-Curve energy_equation(double e, double end, analysis::Velocities velocities) {
-  const bool gaussian = velocities == analysis::Velocities::gaussian;
-  Curve curve{.name = gaussian ? "energy equation, Gaussian velocities"
-                               : "energy equation, Enskog-Boltzmann velocities",
-              .source = Source::theory,
-              .e = e,
-              .n = base_density,
-              .look = gaussian ? Look::dotted : Look::line};
-  if (gaussian) curve.width = 1.2;
-  for (const auto& point : analysis::energy_equation({.e = e, .n = base_density}, times(end),
-                                                     analysis::cutoff_b, velocities)) {
-    curve.x.push_back(point.tau);
-    curve.y.push_back(point.gamma_ratio);
-  }
-  return curve;
-}
-
 }  // namespace
 
 std::optional<Plot> figure_11(const Averages& averages) {
@@ -62,23 +33,17 @@ std::optional<Plot> figure_11(const Averages& averages) {
               .y = {.label = "{/:Italic γ} / {/:Italic γ}_0", .column = "gamma_ratio"},
               .legend = "bottom left"};
   for (const MeanSeries& series : chosen) {
-    Curve curve = measured_curve(series);
-    curve.realizations.clear();
-    add_interval_means(series, RunValue::gamma_ratio, intervals, end, curve);
-    curve.look = Look::symbols;
+    Curve curve = decay_rates(series, end);
     curve.colour = colour(panel.curves.size(), chosen.size());
     panel.curves.push_back(std::move(curve));
   }
   for (const auto velocities :
        {analysis::Velocities::enskog_boltzmann, analysis::Velocities::gaussian})
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-      panel.curves.push_back(energy_equation(chosen[i].e, end, velocities));
+      panel.curves.push_back(energy_equation_rates(chosen[i].e, base_density, end, velocities));
       panel.curves.back().colour = colour(i, chosen.size());
     }
-  panel.curves.push_back(
-      {.legend = fmt::format("energy equation, {{/:Italic b}} = {:.2f}", analysis::cutoff_b)});
-  panel.curves.push_back(
-      {.legend = "the same, Gaussian velocities", .look = Look::dotted, .width = 1.2});
+  for (Curve& entry : energy_equation_entries()) panel.curves.push_back(std::move(entry));
   Curve boltzmann = direct_curve("gamma_ratio", deepest_a2, end).value();  // tabulated
   boltzmann.legend = "Enskog–Boltzmann, {/:Italic e} = 0.865";
   boltzmann.look = Look::dashed;
@@ -87,10 +52,7 @@ std::optional<Plot> figure_11(const Averages& averages) {
   panel.y.low = range.low - 0.04 * range.width();
   panel.y.high = range.high + 0.04 * range.width();
   return Plot{.panels = {panel},
-              .caption = provenance(chosen) +
-                         fmt::format(" From τ = {:g} on, means over Δτ = {:g}.", intervals.from,
-                                     intervals.width) +
-                         error_note(chosen)};
+              .caption = provenance(chosen) + intervals_note() + error_note(chosen)};
 }
 
 }  // namespace haff::campaign

@@ -175,6 +175,10 @@ TEST_CASE("answer: forty gases have a scale of tones in place of a legend") {
   CHECK(panel.scale->low == 0.6);
   CHECK(panel.legend == "none");
   CHECK(panel.curves.front().colour != panel.curves.back().colour);
+  CHECK(many.plot.caption.find("Curves of one tone") == std::string::npos);
+  add_finished(store, 0.60, 0.2, 200, 1, 3);
+  CHECK(answer(store, {.y = "temperature"}).plot.caption.find("Curves of one tone differ in n.") !=
+        std::string::npos);
 }
 
 TEST_CASE("answer: nothing to draw, SQL that is none, and logarithms of nothing are told apart") {

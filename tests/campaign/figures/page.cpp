@@ -61,6 +61,14 @@ TEST_CASE("page: a caption appears once, be it beside an SVG or within a PNG") {
   CHECK(count("means of 3 realizations", shown("gas-a2.png")) == 0);
 }
 
+TEST_CASE("page: a broad picture has a row of its own") {
+  const auto shown = [](int width) {
+    return written({.gases = {{.name = "gas-a2", .picture = "gas-a2.svg", .width = width}}});
+  };
+  CHECK(count("class=\"broad\"", shown(1160)) == 1);
+  CHECK(count("class=\"broad\"", shown(640)) == 0);
+}
+
 TEST_CASE("page: what an earlier run has left is marked") {
   const std::string page = written({.from_before = {"figure-08.svg"}});
   CHECK(page.find("from an earlier run, and not of this store: figure-08.svg") !=
