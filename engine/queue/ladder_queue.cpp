@@ -138,13 +138,14 @@ bool LadderQueueOf<Members>::open_next_slot() {
     List& list = lists_[in_window(slot_)];
     if (list.chunk == none) continue;
     std::size_t count = 0;
-    empty(list, [&](std::uint32_t particle) __attribute__((always_inline)) {
-      if (count == found_.size()) [[unlikely]]
-        found_.resize(2 * count + 16);
-      const double time = time_of(particle, never_due.time);
-      found_[count] = {time, particle};
-      count += slot_of(time) == slot_;
-    });
+    empty(
+        list, [&](std::uint32_t particle) __attribute__((always_inline)) {
+          if (count == found_.size()) [[unlikely]]
+            found_.resize(2 * count + 16);
+          const double time = time_of(particle, never_due.time);
+          found_[count] = {time, particle};
+          count += slot_of(time) == slot_;
+        });
     if (count == 0) continue;
     sort_in(count);
     return true;

@@ -224,7 +224,8 @@ template <class Members>
   const Entry* const due = due_.data() + head_;
   const Event& one = events_[due[0].particle];
   // Of a particle that has gone, no event is looked at; settle_tie() drops its entry.
-  const std::uint32_t second = members_.holds(events_[due[1].particle]) ? due[1].particle : due[0].particle;
+  const std::uint32_t second =
+      members_.holds(events_[due[1].particle]) ? due[1].particle : due[0].particle;
   const Event& other = events_[second];
   const std::uint32_t differ = (one.partner ^ second) | (other.partner ^ due[0].particle) |
                                ((one.face & other.face) ^ Event::contact);
