@@ -114,12 +114,12 @@ class SimdSearch {
   // Where to search, as a function: the rare paths call it again, so the common path need not keep
   // the result.
   HWY_INLINE auto around(Cell cell) const {
-    return [this, cell]() HWY_ATTR __attribute__((always_inline)) {
+    return [ this, cell ]() HWY_ATTR __attribute__((always_inline)) {
       return gas_.bricks.around<dimension>(cell);
     };
   }
   HWY_INLINE auto beyond(Cell cell, Face face) const {
-    return [this, cell, face]() HWY_ATTR __attribute__((always_inline)) {
+    return [ this, cell, face ]() HWY_ATTR __attribute__((always_inline)) {
       return gas_.bricks.beyond<dimension>(cell, face);
     };
   }
