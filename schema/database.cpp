@@ -207,8 +207,12 @@ void Database::open_to_read() {
   const auto known = scripts().size();
   must_not_be_newer(version, known, path_);
   must_have_our_schema(*sqlite_, version, path_);
+  // Another process may open or close the log between two of these looks: hence the second.
+  const auto is_announced = [this] {
+    return sqlite_->execAndGet("SELECT is_open FROM log").getInt() == 1;
+  };
   lacks_log_ = version >= version_with("018-log.sql") && !log_exists && mode(*sqlite_) == "wal" &&
-               sqlite_->execAndGet("SELECT is_open FROM log").getInt() == 1;
+               is_announced() && !has_log(file_) && is_announced();
   if (version < static_cast<int>(known)) {
     original_ = std::move(sqlite_);
     sqlite_ = copy_brought_forward(*original_, path_);

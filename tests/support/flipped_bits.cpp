@@ -17,13 +17,16 @@ namespace haff::tests {
 
 namespace {
 
-// Small gases, so that rows are as much of the file as states.
+// Small gases, so that rows are as much of the file as states. Every effect, and every observable
+// of equal spheres.
 constexpr const char* every_effect_and_observable = R"({
-  "n": 0.05, "N": 40, "seeds": 1, "tau_max": 4, "equilibrate": 20, "profiles_every": 2, "fields_at": [2],
-  "observables": ["temperature", "laguerre", "distribution", "correlations", "structure", "clusters",
-                  "fields"],
+  "n": 0.05, "N": 40, "seeds": 1, "tau_max": 4, "equilibrate": 20,
+  "observables": ["temperature", "laguerre"],
   "grids": [
-    {"e": 0.8, "effects": [{}, {"restitution": {"law": "threshold", "speed": 0.1}},
+    {"e": 0.8, "profiles_every": 2, "fields_at": [2],
+     "observables": ["temperature", "laguerre", "distribution", "correlations", "structure",
+                     "clusters", "fields"]},
+    {"e": 0.8, "effects": [{"restitution": {"law": "threshold", "speed": 0.1}},
                            {"restitution": {"law": "tc", "t_c": 1e-3}}, {"shuffle": {"every": 2}},
                            {"thermostat": {"rate": 0.05}}, {"roughness": {"beta": 0.5, "q": 0.4}},
                            {"mixture": {"fraction": 0.5, "diameter_ratio": 0.8, "mass_ratio": 0.1}}]},
