@@ -1,5 +1,7 @@
 #include "schema/effects.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,8 +53,8 @@ Effects::Effects(std::string_view json) {
       else if (value.is_number())
         parameters[name] = value.get<double>();
       else
-        throw std::invalid_argument("the parameter " + name + " of the effect " + effect +
-                                    " is no number: " + value.dump());
+        throw std::invalid_argument(fmt::format(
+            "the parameter {} of the effect {} is no number: {}", name, effect, value.dump()));
     }
   }
   text_ = all.dump();

@@ -90,6 +90,7 @@ std::optional<Difference> Store::turn_bit_back(std::int64_t job_id) {
     if (!row.executeStep()) return std::nullopt;
     // A claim may have found the row wrong before, and noted that in it.
     std::vector<Word> words;
+    words.reserve(static_cast<std::size_t>(row.getColumnCount()));
     for (int k = 0; k < row.getColumnCount(); ++k)
       words.push_back(DigestedTable::word(row.getColumn(k)));
     const std::uint64_t wanted = *written ^ table.digest_of_none();

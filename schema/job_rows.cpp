@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -41,7 +42,7 @@ Likeness likeness(const SQLite::Column& a, const SQLite::Column& b, double toler
   if (a.isInteger()) return when(a.getInt64() == b.getInt64());
   if (a.isFloat()) {
     const double x = a.getDouble(), y = b.getDouble();
-    if (std::memcmp(&x, &y, sizeof x) == 0) return Likeness::same;
+    if (std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y)) return Likeness::same;
     const bool is_near = std::abs(x - y) <= tolerance * std::max(std::abs(x), std::abs(y));
     return is_near ? Likeness::in_last_digits : Likeness::different;
   }

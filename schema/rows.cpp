@@ -58,19 +58,18 @@ void must_be_countable(const Job& job, double tau_max) {
 }  // namespace
 
 Job job_of(const SQLite::Statement& row) {
-  const Job job{
-      .kind = named(row, "kind", kind_named),
-      .d = static_cast<int>(integer(row, "d", 2, 3)),
-      .e = optional_real(row, "e"),
-      .n = positive(row, "n"),
-      .particles = static_cast<std::uint32_t>(integer(row, "particles", 2, most_particles)),
-      .seed = static_cast<std::uint64_t>(integer(row, "seed", 0, largest_whole)),
-      .equilibrate = positive(row, "equilibrate"),
-      .sample_every = positive(row, "sample_every"),
-      .effects = effects(row),
-      .observables = canonical(row, "observables", observables_in, observables_text),
-      .profiles_every = optional(row, "profiles_every", positive),
-      .fields_at = fields_at(row)};
+  Job job{.kind = named(row, "kind", kind_named),
+          .d = static_cast<int>(integer(row, "d", 2, 3)),
+          .e = optional_real(row, "e"),
+          .n = positive(row, "n"),
+          .particles = static_cast<std::uint32_t>(integer(row, "particles", 2, most_particles)),
+          .seed = static_cast<std::uint64_t>(integer(row, "seed", 0, largest_whole)),
+          .equilibrate = positive(row, "equilibrate"),
+          .sample_every = positive(row, "sample_every"),
+          .effects = effects(row),
+          .observables = canonical(row, "observables", observables_in, observables_text),
+          .profiles_every = optional(row, "profiles_every", positive),
+          .fields_at = fields_at(row)};
   if (job.e && !(*job.e >= 0 && *job.e <= 1))
     throw BadValue("the column e holds a number that is not between 0 and 1");
   return job;

@@ -72,6 +72,7 @@ std::vector<WrittenShard> split(schema::Store& store, std::size_t count, const f
 
   fs::create_directories(folder);
   std::vector<schema::Loan> loans;
+  loans.reserve(shards.size());
   for (const WrittenShard& shard : shards)
     loans.push_back({shard.name, shard.path, shard.share.jobs});
   store.lend(loans);

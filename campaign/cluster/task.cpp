@@ -159,6 +159,7 @@ pid_t start_run(const fs::path& store, const TaskOptions& options) {
     words.push_back(fmt::format("{:.0f}s", *options.max_seconds));
   }
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const pid_t parent = getpid();

@@ -57,6 +57,7 @@ bool is_number(const schema::Value& value) {
 void print_csv(schema::Query& rows) {
   const auto print = [](const auto& cells, const auto& text) {
     std::vector<std::string> fields;
+    fields.reserve(cells.size());
     for (const auto& cell : cells) fields.push_back(text(cell));
     print_data(csv_line(fields));
   };

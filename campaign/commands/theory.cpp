@@ -42,7 +42,7 @@ void print_list(RowFormat format) {
 
 // The values of the curve's variable.
 std::vector<double> variable_of(const TheoryCurve& curve, const TheoryOptions& options) {
-  const auto usual = [](const std::vector<double>& given, std::vector<double> otherwise) {
+  const auto usual = [](const std::vector<double>& given, const std::vector<double>& otherwise) {
     return given.empty() ? otherwise : given;
   };
   if (curve.variable == "tau") return usual(options.tau, range(0, 40, 1));
@@ -123,6 +123,7 @@ void print(const TheoryTable& table, RowFormat format) {
   std::string lines = format == RowFormat::csv ? csv_line(table.columns) : "";
   for (const auto& row : table.rows) {
     std::vector<std::string> cells;
+    cells.reserve(row.size());
     for (const double value : row) cells.push_back(cell(value, format));
     if (format == RowFormat::csv)
       lines += csv_line(cells);

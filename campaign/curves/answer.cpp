@@ -34,6 +34,7 @@ constexpr int theory_points = 160;
 
 std::vector<const Scene*> scenes_of(const std::vector<GasCurve>& curves) {
   std::vector<const Scene*> scenes;
+  scenes.reserve(curves.size());
   for (const GasCurve& curve : curves) scenes.push_back(&curve.scene);
   return scenes;
 }

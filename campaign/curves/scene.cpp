@@ -1,5 +1,7 @@
 #include "campaign/curves/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "campaign/base/number_text.hpp"
@@ -43,7 +45,7 @@ Scene scene_of(const schema::Job& job) {
   add("sample_every", job.sample_every);
   for (const auto& [effect, parameters] : job.effects.by_name()) {
     if (effect == "restitution") add("restitution.law", job.effects.law());
-    for (const auto& [name, value] : parameters) add(effect + "." + name, value);
+    for (const auto& [name, value] : parameters) add(fmt::format("{}.{}", effect, name), value);
   }
   return scene;
 }

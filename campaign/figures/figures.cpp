@@ -108,7 +108,7 @@ class Drawing {
       entry.caption = "not drawn: " + attempt.error;
       fmt::print(report_, "{}cannot be drawn: {}\n", head, attempt.error);
       failed_ = true;
-      entries.push_back(std::move(entry));
+      entries.push_back(entry);
     }
     if (!attempt.plot) return false;
     const Plot& plot = *attempt.plot;
@@ -204,6 +204,7 @@ void report_lacking(const std::vector<PaperFigure>& lacking, bool with_plans,
   }
   if (lacking.empty()) return;
   std::vector<int> numbers;
+  numbers.reserve(lacking.size());
   for (const PaperFigure& figure : lacking) numbers.push_back(figure.id);
   fmt::print(
       report,

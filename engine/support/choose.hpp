@@ -22,8 +22,10 @@ template <class... Condition>
 // condition ? one : other, without a branch.
 template <class T>
 [[gnu::always_inline]] inline T choose(bool condition, T one, T other) {
+  // NOLINTBEGIN(bugprone-sizeof-expression): of a pointer, too, the bits are chosen
   using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
   static_assert(sizeof(T) == sizeof(Bits));
+  // NOLINTEND(bugprone-sizeof-expression)
   Bits all_ones = 0 - Bits{condition};
   asm("" : "+r"(all_ones));
   return std::bit_cast<T>((std::bit_cast<Bits>(one) & all_ones) |
