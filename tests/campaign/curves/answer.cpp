@@ -105,7 +105,7 @@ TEST_CASE("answer: against a parameter, a point for each gas and a curve for the
   CHECK(plateau.plot.caption.find("a2, tau 5 to 15") == 0);
   const Answer at_20 = answer(store, {.y = "temperature@20", .against = "n", .where = "e = 0.8"});
   REQUIRE(curves(at_20).size() == 1);
-  const MeanSeries& series = read_averages(store).series.front();
+  const MeanSeries series = read_averages(store).series.front();
   CHECK(curves(at_20).front().y.front() == Approx(series.temperature.value[20]).epsilon(1e-12));
 }
 
