@@ -21,8 +21,8 @@ struct Source {
   std::string table;               // beside jobs
   std::vector<std::string> place;  // columns that, with the gas, tell one mean from the next
   std::vector<std::string> averaged;
-  std::string where;   // which rows of the table
-  std::string counts;  // further columns of means, beside realizations
+  std::string where = {};   // which rows of the table
+  std::string counts = {};  // further columns of means, beside realizations
 };
 
 std::string list(const std::vector<std::string>& columns, std::string_view form) {
