@@ -163,20 +163,22 @@ CLI::App* add_explain(CLI::App& app, ExplainCommand& options) {
   return command;
 }
 
+void add_format(CLI::App& command, RowFormat& format) {
+  const auto set_format = [&format](const std::string& name) {
+    format = name == "csv" ? RowFormat::csv : name == "json" ? RowFormat::json : RowFormat::table;
+  };
+  command.add_option_function<std::string>("--format", set_format, "How to print the rows")
+      ->check(CLI::IsMember({"table", "csv", "json"}))
+      ->type_name("table|csv|json")
+      ->default_str("table");
+}
+
 CLI::App* add_query(CLI::App& app, QueryCommand& options) {
   auto* command = app.add_subcommand("query", "Ask the store one question in SQL");
   command->add_option("SQL", options.sql, "One statement that reads")
       ->type_name("TEXT")
       ->required();
-  const auto set_format = [&options](const std::string& name) {
-    options.format = name == "csv"    ? RowFormat::csv
-                     : name == "json" ? RowFormat::json
-                                      : RowFormat::table;
-  };
-  command->add_option_function<std::string>("--format", set_format, "How to print the rows")
-      ->check(CLI::IsMember({"table", "csv", "json"}))
-      ->type_name("table|csv|json")
-      ->default_str("table");
+  add_format(*command, options.format);
   command->footer(
       examples(R"(  campaign query "SELECT e, n, particles, tau_c, tau_c_se FROM mean_tau_c"
   campaign query "SELECT tau, a2, a2_se FROM mean_series WHERE e = 0.9" --format csv > a2.csv
@@ -597,15 +599,7 @@ CLI::App* add_theory(CLI::App& app, TheoryOptions& options) {
       ->check(CLI::Range(2, 1'000'000))
       ->capture_default_str();
   command->add_option("--seed", options.seed, "Likewise")->capture_default_str();
-  const auto set_format = [&options](const std::string& name) {
-    options.format = name == "csv"    ? RowFormat::csv
-                     : name == "json" ? RowFormat::json
-                                      : RowFormat::table;
-  };
-  command->add_option_function<std::string>("--format", set_format, "How to print the rows")
-      ->check(CLI::IsMember({"table", "csv", "json"}))
-      ->type_name("table|csv|json")
-      ->default_str("table");
+  add_format(*command, options.format);
   command->footer(R"(Examples:
   campaign theory --list
   campaign theory a2 --d 3 --e 0.85 --tau 0:40:1 --format csv

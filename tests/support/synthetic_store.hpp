@@ -228,4 +228,14 @@ inline void add_finished_with_profiles(schema::Store& store, double e, double n,
                seeds, tau_max);
 }
 
+// Enough of the paper's scenes for its figures.
+inline schema::Store first_campaign(int seeds = 2) {
+  auto store = schema::Store::in_memory();
+  add_finished(store, 0.8, 0.4, 2000, seeds, 90);
+  add_finished(store, 0.9, 0.4, 2000, seeds, 180);
+  add_finished(store, 0.85, 0.2, 2000, seeds, 40);
+  add_finished_with_profiles(store, 0.8, 0.4, 3000, 1, 60, 10, {60});
+  return store;
+}
+
 }  // namespace haff::campaign

@@ -11,19 +11,6 @@
 using namespace haff;
 using namespace haff::campaign;
 
-namespace {
-
-schema::Store first_campaign(int seeds = 2) {
-  auto store = schema::Store::in_memory();
-  add_finished(store, 0.8, 0.4, 2000, seeds, 90);
-  add_finished(store, 0.9, 0.4, 2000, seeds, 180);
-  add_finished(store, 0.85, 0.2, 2000, seeds, 40);
-  add_finished_with_profiles(store, 0.8, 0.4, 3000, 1, 60, 10, {60});
-  return store;
-}
-
-}  // namespace
-
 TEST_CASE("figures: a damaged field ends figure 8 alone") {
   Averages averages = read_averages(first_campaign());
   REQUIRE(averages.velocity_field);
