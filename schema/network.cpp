@@ -10,7 +10,7 @@ namespace haff::schema {
 
 bool is_on_network(const std::filesystem::path& file) {
   // Of linux/magic.h, and of the file systems themselves where they are not part of the kernel.
-  constexpr std::array<std::uint32_t, 12> shared{
+  constexpr std::array<std::uint32_t, 13> shared{
       0x6969,      // NFS
       0x0bd00bd0,  // Lustre
       0x47504653,  // GPFS
@@ -23,6 +23,7 @@ bool is_on_network(const std::filesystem::path& file) {
       0xaad7aaea,  // PanFS
       0x01021997,  // 9p
       0x7461636f,  // OCFS2
+      0x65735546,  // FUSE: sshfs, GlusterFS and others; which machines share it cannot be told
   };
   struct statfs about {};
   auto folder = file.parent_path();

@@ -6,8 +6,9 @@
 namespace haff::schema {
 
 // Whether the file, or the folder that it is to be in, is on a file system that several machines
-// share: NFS, Lustre, GPFS, BeeGFS, CephFS, SMB, AFS, PanFS, 9p or OCFS2. There SQLite's shared
-// memory holds for one machine alone, and its locks hold as far as the file system keeps them.
+// may share: NFS, Lustre, GPFS, BeeGFS, CephFS, SMB, AFS, PanFS, 9p, OCFS2 or FUSE (sshfs,
+// GlusterFS). There SQLite's shared memory holds for one machine alone, and its locks hold as far
+// as the file system keeps them.
 bool is_on_network(const std::filesystem::path& file);
 
 }  // namespace haff::schema

@@ -3,7 +3,9 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <sys/file.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -31,7 +33,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto look_every = 100ms;
 
-// A folder of the task's own on a disk of its node, gone with the task.
+// A folder of the task's own on a disk of its node, gone with the task. A task that is killed
+// cannot remove its folder; the next one on this node does. Which folders are left over is told by
+// a lock on a file in each of them, which the kernel lifts when a task dies, however it dies.
 class Scratch {
  public:
   Scratch() {
@@ -44,24 +48,60 @@ class Scratch {
   }
   ~Scratch() {
     std::error_code ignored;
-    if (!kept_) fs::remove_all(path_, ignored);
+    fs::remove_all(path_, ignored);
+    close(lock_);
   }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
   const fs::path& path() const { return path_; }
-  void keep() { kept_ = true; }
+
+  // Moves what is here to a folder that no task removes, and returns that.
+  fs::path keep() const {
+    const fs::path kept = path_.parent_path() / ("kept-" + path_.filename().string());
+    fs::remove(path_ / lock_name);
+    fs::rename(path_, kept);
+    return kept;
+  }
 
  private:
+  static constexpr const char* prefix = "campaign-";
+  static constexpr const char* lock_name = "in-use";
+
   bool make_in(const fs::path& folder) {
-    std::string name = (folder / "campaign-XXXXXX").string();
+    remove_left_over(folder);
+    std::string name = (folder / (std::string(prefix) + "XXXXXX")).string();
     if (mkdtemp(name.data()) == nullptr) return false;
     path_ = name;
+    // The lock is taken before the file has the name that others look for. The run inherits it,
+    // since it may be a moment longer at work than a task that is killed.
+    const fs::path unnamed = path_ / "new";
+    lock_ = open(unnamed.c_str(), O_RDWR | O_CREAT, 0600);
+    if (lock_ >= 0) flock(lock_, LOCK_EX | LOCK_NB);
+    std::error_code ignored;
+    fs::rename(unnamed, path_ / lock_name, ignored);
     return true;
   }
 
+  static void remove_left_over(const fs::path& parent) {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(parent, ignored)) {
+      if (!entry.path().filename().string().starts_with(prefix) || !is_mine(entry.path())) continue;
+      const int lock = open((entry.path() / lock_name).c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+      if (lock < 0) continue;
+      if (flock(lock, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry.path(), ignored);
+      close(lock);
+    }
+  }
+
+  static bool is_mine(const fs::path& folder) {
+    struct stat about {};
+    return lstat(folder.c_str(), &about) == 0 && S_ISDIR(about.st_mode) &&
+           about.st_uid == geteuid();
+  }
+
   fs::path path_;
-  bool kept_ = false;
+  int lock_ = -1;
 };
 
 // This process, so that no two hosts or times give the same.
@@ -193,8 +233,8 @@ class Task {
       if (is_lost()) return exit_code;
       if (put_back(working_, shard_, claimed_)) spdlog::info("{} is put back", shard_.string());
     } catch (const std::exception&) {
-      scratch_.keep();
-      spdlog::error("what was computed is in {}, until the node clears it", working_.string());
+      spdlog::error("what was computed is in {}, until the node clears it",
+                    (scratch_.keep() / working_.filename()).string());
       throw;
     }
     return exit_code;

@@ -67,6 +67,25 @@ TEST_CASE("slurm: a task by hand puts its shard back while it works, stops in or
   CHECK_FALSE(std::filesystem::exists(folder / "shards/shard-001.db.task"));
 }
 
+TEST_CASE("slurm: a task removes the scratch folders that killed ones left, and those alone") {
+  const Folder folder;
+  plan(folder, long_grid);
+  REQUIRE(campaign(folder, {"split", "--into", "3"}).exit_code == 0);
+  const std::string script = R"SH(
+    mkdir scratch; export TMPDIR=$PWD/scratch
+    left() { ls -d scratch/campaign-* | wc -l; }
+    wait_for_folders() { for i in $(seq 500); do [ $(left) -ge $1 ] && return; sleep 0.02; done; }
+    "$campaign" task shards/shard-001.db & killed=$!
+    wait_for_folders 1; kill -9 $killed; wait $killed
+    for i in $(seq 500); do flock -n scratch/campaign-*/in-use true && break; sleep 0.02; done
+    mkdir scratch/campaign-of-the-user
+    "$campaign" task shards/shard-002.db & at_work=$!
+    "$campaign" task shards/shard-003.db; wait $at_work; ls scratch)SH";
+  CHECK(shell(folder, script).out == "campaign-of-the-user\n");
+  for (const char* shard : {"shards/shard-002.db", "shards/shard-003.db"})
+    CHECK(campaign(folder, {"merge", shard}).exit_code == 0);
+}
+
 TEST_CASE("slurm: a scratch folder that fills up costs what was not put back") {
   const Folder folder;
   plan(folder, grid_with_everything);

@@ -89,14 +89,31 @@ void wait_for_running(const Folder& folder, const std::string& partition, int co
   FAIL("not " << count << " tasks of " << partition << " run:\n" << logs(folder));
 }
 
-void wait_for_states(const Folder& folder, const std::string& shard, int count) {
-  const std::string ask = "sqlite3 shards/" + shard + ".db 'SELECT count(*) FROM checkpoints'";
+namespace {
+
+// Waits until a query of a shard in the user's folder counts so many.
+void wait_for_count(const Folder& folder, const std::string& shard, const std::string& query,
+                    int count) {
+  const std::string ask = "sqlite3 shards/" + shard + ".db \"" + query + "\"";
   for (int patience = 0; patience < 600; ++patience) {
     const Outcome seen = shell(folder, ask);
     if (seen.exit_code == 0 && std::stoi(seen.out) >= count) return;
     sleep_for(100ms);
   }
   FAIL(shard << " is not put back:\n" << logs(folder));
+}
+
+}  // namespace
+
+void wait_for_states(const Folder& folder, const std::string& shard, int count) {
+  wait_for_count(folder, shard, "SELECT count(*) FROM checkpoints", count);
+}
+
+void wait_for_cooling(const Folder& folder, const std::string& shard) {
+  wait_for_count(folder, shard,
+                 "SELECT count(*) FROM jobs JOIN checkpoints USING (job_id) "
+                 "WHERE kind = 'cooling' AND status <> 'done'",
+                 1);
 }
 
 std::string logs(const Folder& folder) {

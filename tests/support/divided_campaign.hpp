@@ -39,6 +39,9 @@ void wait_for_running(const Folder& folder, const std::string& partition, int co
 // Waits until so many states are in the shard at home: its task has put it back.
 void wait_for_states(const Folder& folder, const std::string& shard, int count);
 
+// The same until there is a state of a cooling job that is not done.
+void wait_for_cooling(const Folder& folder, const std::string& shard);
+
 // Starts the command and kills it after some milliseconds. Whether it still ran then.
 bool kill_after(const Folder& folder, std::vector<std::string> words,
                 std::chrono::milliseconds time);

@@ -85,19 +85,21 @@ TEST_CASE("slurm: the paper's small grid, tasks cancelled, requeued and killed, 
 
 TEST_CASE("slurm: effects and a target, preempted and requeued: nothing stored is computed twice") {
   const std::string grid = R"({
-    "n": 0.3, "N": 1000, "seeds": 3, "equilibrate": 20, "checkpoint_every": 10,
+    "n": 0.3, "N": 8000, "seeds": 3, "equilibrate": 20, "checkpoint_every": 10,
     "grids": [
-      {"e": [0.8, 0.95], "tau_max": 400, "profiles_every": 20, "fields_at": [20], "observables":
+      {"e": [0.8, 0.95], "tau_max": 1200, "sample_every": 5, "profiles_every": 100,
+       "fields_at": [20], "observables":
         ["temperature", "laguerre", "distribution", "correlations", "clusters", "fields"]},
-      {"e": 0.7, "tau_max": 400, "effects": {"roughness": {"beta": 0.5, "q": 0.4}}},
-      {"e": 0.9, "seeds": 5, "tau_max": 15, "target": {"a2": {"tau": [5, 15], "se": 0.003}}}]})";
+      {"e": 0.7, "tau_max": 800, "sample_every": 5,
+       "effects": {"roughness": {"beta": 0.5, "q": 0.4}}},
+      {"e": 0.9, "N": 1000, "seeds": 5, "tau_max": 15, "target": {"a2": {"tau": [5, 15], "se": 0.003}}}]})";
   const std::string expected = calm_rows(grid);
   const Folder folder;
   const SlurmCluster cluster(folder / "slurm");
   plan(folder, grid);
   start(folder, "10m");
   wait_for_running(folder, "all", 3);
-  wait_for_states(folder, "shard-001", 1);
+  wait_for_cooling(folder, "shard-001");
 
   // A partition that goes before takes both nodes for a moment.
   cluster.slurm(
