@@ -1,4 +1,4 @@
-// The SQL and JSON files of this folder, as text within the program (embed.cmake).
+// The SQL and JSON files of schema/, as text within the program (embed.cmake).
 #pragma once
 
 #include <span>

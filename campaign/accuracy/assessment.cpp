@@ -15,9 +15,9 @@
 #include "analysis/statistics/interpolation.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "analysis/theory/energy_equation.hpp"
-#include "campaign/base/job_text.hpp"
-#include "campaign/base/number_text.hpp"
-#include "campaign/base/text_table.hpp"
+#include "campaign/base/text/job_text.hpp"
+#include "campaign/base/text/number_text.hpp"
+#include "campaign/base/text/text_table.hpp"
 
 namespace haff::campaign {
 namespace {

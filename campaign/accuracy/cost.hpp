@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "campaign/accuracy/quantity.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

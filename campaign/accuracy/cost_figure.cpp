@@ -9,8 +9,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "campaign/base/number_text.hpp"
-#include "campaign/base/text_table.hpp"
+#include "campaign/base/text/number_text.hpp"
+#include "campaign/base/text/text_table.hpp"
 #include "campaign/plot/colours.hpp"
 #include "campaign/plot/picture.hpp"
 #include "campaign/plot/plot.hpp"

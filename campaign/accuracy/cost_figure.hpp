@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "campaign/accuracy/assessment.hpp"
-#include "campaign/base/output_files.hpp"
+#include "campaign/base/output/output_files.hpp"
 
 namespace haff::campaign {
 

@@ -10,7 +10,7 @@
 #include "analysis/statistics/interpolation.hpp"
 #include "analysis/statistics/statistics.hpp"
 #include "analysis/theory/cooling.hpp"
-#include "campaign/base/number_text.hpp"
+#include "campaign/base/text/number_text.hpp"
 
 namespace haff::campaign {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "analysis/statistics/accuracy.hpp"
 #include "campaign/accuracy/quantity.hpp"
-#include "campaign/base/duration.hpp"
-#include "campaign/base/job_text.hpp"
-#include "campaign/base/number_text.hpp"
-#include "campaign/base/text_table.hpp"
+#include "campaign/base/text/duration.hpp"
+#include "campaign/base/text/job_text.hpp"
+#include "campaign/base/text/number_text.hpp"
+#include "campaign/base/text/text_table.hpp"
 #include "campaign/planning/forecast.hpp"
 #include "campaign/results/finished_runs.hpp"
 

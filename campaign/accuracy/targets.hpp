@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/statistics/statistics.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

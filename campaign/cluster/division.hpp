@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

@@ -13,8 +13,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "campaign/base/command_text.hpp"
-#include "campaign/base/write_file.hpp"
+#include "campaign/base/output/write_file.hpp"
+#include "campaign/base/text/command_text.hpp"
 #include "campaign/cluster/subprocess.hpp"
 
 namespace haff::campaign {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "campaign/cluster/division.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

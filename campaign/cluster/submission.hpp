@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "campaign/cluster/slurm.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

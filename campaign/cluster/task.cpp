@@ -21,8 +21,8 @@
 #include <thread>
 #include <vector>
 
-#include "campaign/base/signals.hpp"
-#include "schema/store.hpp"
+#include "campaign/base/process/signals.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 namespace {

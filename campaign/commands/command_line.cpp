@@ -8,16 +8,16 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "campaign/base/command_text.hpp"
-#include "campaign/base/duration.hpp"
-#include "campaign/base/exit_code.hpp"
-#include "campaign/base/machine.hpp"
-#include "campaign/base/number_text.hpp"
-#include "campaign/base/output.hpp"
-#include "campaign/base/version.hpp"
+#include "campaign/base/output/output.hpp"
+#include "campaign/base/process/exit_code.hpp"
+#include "campaign/base/process/machine.hpp"
+#include "campaign/base/process/version.hpp"
+#include "campaign/base/text/command_text.hpp"
+#include "campaign/base/text/duration.hpp"
+#include "campaign/base/text/number_text.hpp"
 #include "campaign/commands/documents.hpp"
 #include "campaign/commands/json_output.hpp"
-#include "campaign/commands/recompute.hpp"
+#include "campaign/commands/store/recompute.hpp"
 
 namespace haff::campaign {
 namespace {

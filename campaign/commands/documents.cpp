@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "campaign/base/version.hpp"
+#include "campaign/base/process/version.hpp"
 
 namespace haff::campaign {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "campaign/base/output.hpp"
+#include "campaign/base/output/output.hpp"
 
 namespace haff::campaign {
 

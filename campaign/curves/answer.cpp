@@ -8,8 +8,8 @@
 #include <set>
 
 #include "analysis/direct/table.hpp"
-#include "campaign/base/number_text.hpp"
-#include "campaign/base/printable.hpp"
+#include "campaign/base/text/number_text.hpp"
+#include "campaign/base/text/printable.hpp"
 #include "campaign/curves/gas_curves.hpp"
 #include "campaign/curves/labels.hpp"
 #include "campaign/curves/theory_lines.hpp"

@@ -6,7 +6,7 @@
 
 #include "campaign/curves/question.hpp"
 #include "campaign/plot/plot.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

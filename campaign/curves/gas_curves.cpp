@@ -7,7 +7,7 @@
 
 #include "analysis/statistics/statistics.hpp"
 #include "campaign/accuracy/differences.hpp"
-#include "campaign/base/number_text.hpp"
+#include "campaign/base/text/number_text.hpp"
 #include "campaign/curves/observations.hpp"
 #include "campaign/results/averages.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "campaign/curves/question.hpp"
 #include "campaign/curves/scene.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

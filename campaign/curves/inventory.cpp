@@ -7,7 +7,7 @@
 #include <string_view>
 #include <variant>
 
-#include "campaign/base/number_text.hpp"
+#include "campaign/base/text/number_text.hpp"
 #include "campaign/curves/vocabulary.hpp"
 
 namespace haff::campaign {

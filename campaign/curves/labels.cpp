@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "campaign/base/printable.hpp"
+#include "campaign/base/text/printable.hpp"
 
 namespace haff::campaign {
 namespace {

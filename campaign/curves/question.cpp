@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "campaign/base/number_text.hpp"
-#include "schema/suggestion.hpp"
+#include "campaign/base/text/number_text.hpp"
+#include "schema/grid/suggestion.hpp"
 
 namespace haff::campaign {
 namespace {

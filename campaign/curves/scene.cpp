@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "campaign/base/number_text.hpp"
+#include "campaign/base/text/number_text.hpp"
 
 namespace haff::campaign {
 namespace {

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "schema/job.hpp"
+#include "schema/grid/job.hpp"
 
 namespace haff::campaign {
 

@@ -8,7 +8,7 @@
 
 #include "campaign/accuracy/quantity.hpp"
 #include "campaign/plot/plot.hpp"
-#include "schema/job.hpp"
+#include "schema/grid/job.hpp"
 
 namespace haff::campaign {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "campaign/curves/theory_curves.hpp"
-#include "schema/job.hpp"
+#include "schema/grid/job.hpp"
 
 namespace haff::campaign {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

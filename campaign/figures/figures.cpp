@@ -8,13 +8,13 @@
 #include <set>
 #include <system_error>
 
-#include "campaign/base/command_text.hpp"
-#include "campaign/base/output_files.hpp"
-#include "campaign/base/printable.hpp"
+#include "campaign/base/output/output_files.hpp"
+#include "campaign/base/text/command_text.hpp"
+#include "campaign/base/text/printable.hpp"
 #include "campaign/curves/answer.hpp"
 #include "campaign/figures/general.hpp"
 #include "campaign/figures/page.hpp"
-#include "campaign/paper/agreement.hpp"
+#include "campaign/paper/claims/agreement.hpp"
 #include "campaign/paper/figures.hpp"
 #include "campaign/plot/picture.hpp"
 #include "campaign/plot/table.hpp"

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "campaign/base/number_text.hpp"
-#include "campaign/base/printable.hpp"
-#include "campaign/base/version.hpp"
-#include "campaign/base/write_file.hpp"
+#include "campaign/base/output/write_file.hpp"
+#include "campaign/base/process/version.hpp"
+#include "campaign/base/text/number_text.hpp"
+#include "campaign/base/text/printable.hpp"
 #include "campaign/results/published.hpp"
 
 namespace haff::campaign {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/paper/agreement.hpp"
+#include "campaign/paper/claims/agreement.hpp"
 
 namespace haff::campaign {
 

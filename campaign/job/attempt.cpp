@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "campaign/base/cpu_time.hpp"
-#include "campaign/base/job_text.hpp"
-#include "campaign/base/signals.hpp"
+#include "campaign/base/process/cpu_time.hpp"
+#include "campaign/base/process/signals.hpp"
+#include "campaign/base/text/job_text.hpp"
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/model.hpp"
 #include "campaign/state/restore.hpp"

@@ -13,7 +13,7 @@
 #include "campaign/job/measurement.hpp"
 #include "campaign/job/report.hpp"
 #include "engine/simulation.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

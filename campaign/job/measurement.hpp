@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/simulation.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

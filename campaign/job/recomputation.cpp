@@ -6,12 +6,12 @@
 
 #include <variant>
 
-#include "campaign/base/version.hpp"
+#include "campaign/base/process/version.hpp"
 #include "campaign/job/attempt.hpp"
 #include "campaign/job/cooling.hpp"
 #include "campaign/job/equilibration.hpp"
 #include "engine/simulation.hpp"
-#include "schema/checksum.hpp"
+#include "schema/digests/checksum.hpp"
 
 namespace haff::campaign {
 namespace {

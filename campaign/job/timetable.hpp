@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "schema/job.hpp"
+#include "schema/grid/job.hpp"
 
 namespace haff::campaign {
 

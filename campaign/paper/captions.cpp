@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "campaign/base/number_text.hpp"
-#include "campaign/base/text_table.hpp"
+#include "campaign/base/text/number_text.hpp"
+#include "campaign/base/text/text_table.hpp"
 
 namespace haff::campaign {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "analysis/theory/energy_equation.hpp"
-#include "campaign/base/number_text.hpp"
+#include "campaign/base/text/number_text.hpp"
 
 namespace haff::campaign {
 

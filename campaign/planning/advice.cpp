@@ -7,7 +7,7 @@
 #include <set>
 #include <unordered_set>
 
-#include "campaign/base/number_text.hpp"
+#include "campaign/base/text/number_text.hpp"
 
 namespace haff::campaign {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "campaign/base/cpu_time.hpp"
+#include "campaign/base/process/cpu_time.hpp"
 #include "campaign/job/measurement.hpp"
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/model.hpp"

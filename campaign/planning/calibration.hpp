@@ -1,7 +1,7 @@
 // What a job costs on this machine, part by part: a short trial of it.
 #pragma once
 
-#include "schema/job.hpp"
+#include "schema/grid/job.hpp"
 
 namespace haff::campaign {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "schema/grid.hpp"
-#include "schema/store.hpp"
+#include "schema/grid/grid.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "campaign/planning/calibration.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "campaign/base/number_text.hpp"
+#include "campaign/base/text/number_text.hpp"
 #include "engine/initial.hpp"
 
 namespace haff::campaign {

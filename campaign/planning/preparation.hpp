@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "schema/grid.hpp"
+#include "schema/grid/grid.hpp"
 
 namespace haff::campaign {
 

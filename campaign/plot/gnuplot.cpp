@@ -10,7 +10,7 @@
 #include <memory>
 #include <system_error>
 
-#include "campaign/base/printable.hpp"
+#include "campaign/base/text/printable.hpp"
 
 namespace haff::campaign {
 namespace {

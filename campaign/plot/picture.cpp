@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "campaign/base/printable.hpp"
-#include "campaign/base/write_file.hpp"
+#include "campaign/base/output/write_file.hpp"
+#include "campaign/base/text/printable.hpp"
 #include "campaign/plot/gnuplot.hpp"
 
 namespace haff::campaign {

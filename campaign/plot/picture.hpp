@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "campaign/base/output_files.hpp"
+#include "campaign/base/output/output_files.hpp"
 #include "campaign/plot/plot.hpp"
 #include "campaign/plot/script.hpp"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "campaign/base/printable.hpp"
+#include "campaign/base/text/printable.hpp"
 #include "campaign/plot/colours.hpp"
 
 namespace haff::campaign {

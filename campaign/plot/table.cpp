@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "campaign/base/csv.hpp"
-#include "campaign/base/write_file.hpp"
+#include "campaign/base/output/write_file.hpp"
+#include "campaign/base/text/csv.hpp"
 
 namespace haff::campaign {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "campaign/base/printable.hpp"
+#include "campaign/base/text/printable.hpp"
 
 namespace haff::campaign {
 namespace {

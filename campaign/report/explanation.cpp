@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "campaign/base/command_text.hpp"
-#include "campaign/base/duration.hpp"
-#include "campaign/base/job_text.hpp"
-#include "campaign/base/number_text.hpp"
-#include "campaign/base/printable.hpp"
+#include "campaign/base/text/command_text.hpp"
+#include "campaign/base/text/duration.hpp"
+#include "campaign/base/text/job_text.hpp"
+#include "campaign/base/text/number_text.hpp"
+#include "campaign/base/text/printable.hpp"
 #include "campaign/cluster/division.hpp"
 #include "campaign/run/abandoned.hpp"
 

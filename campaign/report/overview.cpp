@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "campaign/base/command_text.hpp"
-#include "campaign/base/would_fail_again.hpp"
+#include "campaign/base/process/would_fail_again.hpp"
+#include "campaign/base/text/command_text.hpp"
 #include "campaign/results/mixed_physics.hpp"
 #include "campaign/run/abandoned.hpp"
 

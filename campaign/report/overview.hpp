@@ -12,7 +12,7 @@
 #include "campaign/accuracy/targets.hpp"
 #include "campaign/cluster/shards.hpp"
 #include "campaign/results/series.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

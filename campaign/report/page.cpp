@@ -9,14 +9,14 @@
 #include <string_view>
 #include <tuple>
 
-#include "campaign/base/machine.hpp"
-#include "campaign/base/version.hpp"
+#include "campaign/base/process/machine.hpp"
+#include "campaign/base/process/version.hpp"
 #include "campaign/report/assets.hpp"
 #include "campaign/report/base64.hpp"
 #include "campaign/report/occupancy.hpp"
 #include "campaign/report/overview.hpp"
 #include "campaign/report/overview_json.hpp"
-#include "schema/averaged_tables.hpp"
+#include "schema/store/averaged_tables.hpp"
 
 namespace haff::campaign {
 namespace {

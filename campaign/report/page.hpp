@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

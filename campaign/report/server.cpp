@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "campaign/base/signals.hpp"
+#include "campaign/base/process/signals.hpp"
 #include "campaign/report/page.hpp"
-#include "schema/averaged_tables.hpp"
-#include "schema/store.hpp"
+#include "schema/store/averaged_tables.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 namespace {

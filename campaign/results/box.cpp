@@ -8,7 +8,7 @@
 
 #include "analysis/theory/enskog.hpp"
 #include "analysis/theory/modes.hpp"
-#include "campaign/base/number_text.hpp"
+#include "campaign/base/text/number_text.hpp"
 
 namespace haff::campaign {
 namespace {

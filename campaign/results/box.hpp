@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "schema/job.hpp"
+#include "schema/grid/job.hpp"
 
 namespace haff::campaign {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "campaign/base/job_text.hpp"
+#include "campaign/base/text/job_text.hpp"
 
 namespace haff::campaign {
 

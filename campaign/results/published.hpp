@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "schema/job.hpp"
+#include "schema/grid/job.hpp"
 
 namespace haff::campaign {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "analysis/statistics/statistics.hpp"
-#include "campaign/base/job_text.hpp"
-#include "campaign/base/number_text.hpp"
-#include "campaign/base/text_table.hpp"
+#include "campaign/base/text/job_text.hpp"
+#include "campaign/base/text/number_text.hpp"
+#include "campaign/base/text/text_table.hpp"
 #include "campaign/results/averages.hpp"
 #include "campaign/results/published.hpp"
 

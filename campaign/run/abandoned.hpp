@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

@@ -13,10 +13,10 @@
 #include <string_view>
 #include <vector>
 
-#include "campaign/base/cpu_time.hpp"
-#include "campaign/base/job_text.hpp"
-#include "campaign/base/number_text.hpp"
-#include "campaign/base/signals.hpp"
+#include "campaign/base/process/cpu_time.hpp"
+#include "campaign/base/process/signals.hpp"
+#include "campaign/base/text/job_text.hpp"
+#include "campaign/base/text/number_text.hpp"
 #include "campaign/run/abandoned.hpp"
 #include "campaign/run/display.hpp"
 #include "campaign/run/ledger.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "campaign/run/event_log.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "campaign/base/duration.hpp"
-#include "campaign/base/output.hpp"
-#include "campaign/base/printable.hpp"
-#include "campaign/base/terminal.hpp"
+#include "campaign/base/output/output.hpp"
+#include "campaign/base/output/terminal.hpp"
+#include "campaign/base/text/duration.hpp"
+#include "campaign/base/text/printable.hpp"
 
 namespace haff::campaign {
 namespace {

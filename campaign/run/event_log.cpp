@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "campaign/base/output.hpp"
+#include "campaign/base/output/output.hpp"
 
 namespace haff::campaign {
 namespace {

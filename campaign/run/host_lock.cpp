@@ -14,11 +14,11 @@
 #include <system_error>
 #include <thread>
 
-#include "campaign/base/command_text.hpp"
-#include "campaign/base/output.hpp"
-#include "campaign/base/signals.hpp"
+#include "campaign/base/output/output.hpp"
+#include "campaign/base/process/signals.hpp"
+#include "campaign/base/text/command_text.hpp"
 #include "campaign/run/process.hpp"
-#include "schema/network.hpp"
+#include "schema/file/network.hpp"
 
 namespace haff::campaign {
 namespace {

@@ -13,7 +13,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

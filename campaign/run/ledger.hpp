@@ -11,7 +11,7 @@
 #include <set>
 
 #include "campaign/run/display.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

@@ -11,8 +11,8 @@
 #include <cstring>
 #include <vector>
 
-#include "campaign/base/output.hpp"
-#include "campaign/base/signals.hpp"
+#include "campaign/base/output/output.hpp"
+#include "campaign/base/process/signals.hpp"
 
 namespace haff::campaign {
 namespace {

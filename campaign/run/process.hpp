@@ -7,7 +7,7 @@
 
 #include <sys/types.h>
 
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

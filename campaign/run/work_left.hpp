@@ -1,7 +1,7 @@
 // Whether a run still has something to do, or to wait for.
 #pragma once
 
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

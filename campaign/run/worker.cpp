@@ -11,17 +11,17 @@
 #include <string>
 #include <thread>
 
-#include "campaign/base/job_text.hpp"
-#include "campaign/base/signals.hpp"
-#include "campaign/base/version.hpp"
-#include "campaign/base/would_fail_again.hpp"
+#include "campaign/base/process/signals.hpp"
+#include "campaign/base/process/version.hpp"
+#include "campaign/base/process/would_fail_again.hpp"
+#include "campaign/base/text/job_text.hpp"
 #include "campaign/job/attempt.hpp"
 #include "campaign/job/cooling.hpp"
 #include "campaign/job/equilibration.hpp"
 #include "campaign/run/process.hpp"
 #include "campaign/run/work_left.hpp"
 #include "engine/simulation.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 namespace {

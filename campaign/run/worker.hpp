@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

@@ -14,7 +14,7 @@
 
 #include "campaign/job/report.hpp"
 #include "campaign/run/worker.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

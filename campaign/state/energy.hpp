@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/state.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

@@ -5,7 +5,7 @@
 
 #include "engine/mixture.hpp"
 #include "engine/simulation.hpp"
-#include "schema/job.hpp"
+#include "schema/grid/job.hpp"
 
 namespace haff::campaign {
 

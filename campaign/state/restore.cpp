@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "campaign/base/job_text.hpp"
+#include "campaign/base/text/job_text.hpp"
 #include "campaign/state/energy.hpp"
 #include "campaign/state/model.hpp"
 #include "engine/initial.hpp"

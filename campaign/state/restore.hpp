@@ -5,7 +5,7 @@
 #include <string>
 
 #include "campaign/state/checkpoint.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <thread>
 
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::schema {
 

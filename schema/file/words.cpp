@@ -16,7 +16,7 @@
 
 #include "schema/error.hpp"
 #include "schema/file/file_system.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::schema {
 

@@ -17,7 +17,7 @@
 #include "engine/simulation.hpp"
 #include "engine/soundness.hpp"
 #include "engine/support/random.hpp"
-#include "schema/grid.hpp"
+#include "schema/grid/grid.hpp"
 
 using namespace haff;
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace haff::schema {

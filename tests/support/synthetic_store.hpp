@@ -14,7 +14,7 @@
 #include "analysis/theory/correlations.hpp"
 #include "analysis/theory/energy_equation.hpp"
 #include "analysis/theory/enskog_boltzmann.hpp"
-#include "schema/store.hpp"
+#include "schema/store/store.hpp"
 
 namespace haff::campaign {
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "campaign/paper/figure.hpp"
-#include "schema/grid.hpp"
+#include "schema/grid/grid.hpp"
 #include "support/synthetic_store.hpp"
 #include "support/temporary_folder.hpp"
 

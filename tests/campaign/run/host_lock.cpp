@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "campaign/run/process.hpp"
-#include "schema/network.hpp"
+#include "schema/file/network.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace haff;

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "../fixture.hpp"
+#include "schema/fixture.hpp"
 
 using namespace haff::schema;
 

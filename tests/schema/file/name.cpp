@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "../fixture.hpp"
+#include "schema/fixture.hpp"
 
 using namespace haff::schema;
 

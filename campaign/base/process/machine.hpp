@@ -1,0 +1,18 @@
+// What this machine offers.
+#pragma once
+
+#include "schema/grid/grid.hpp"
+
+namespace haff::campaign {
+
+// That this process may use: of its affinity mask, and of the CPU quotas of its cgroups, rounded
+// up.
+int processors();
+
+// Memory that this process and its workers may use: the machine's, or the limit of its cgroups.
+double memory_bytes();
+
+// The same, with what a particle of a running job takes of it at least.
+schema::Memory machine_memory();
+
+}  // namespace haff::campaign

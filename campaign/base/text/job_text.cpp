@@ -1,0 +1,22 @@
+#include "campaign/base/text/job_text.hpp"
+
+#include <fmt/format.h>
+
+#include "campaign/base/text/number_text.hpp"
+
+namespace haff::campaign {
+
+std::string describe(const schema::Job& job) {
+  const std::string disks = job.d == 2 ? "d=2 " : "";
+  const std::string gas = disks + fmt::format("n={} N={} seed {}", job.n, job.particles, job.seed);
+  const std::string effects = job.effects.none() ? "" : " " + job.effects.text();
+  if (job.kind == schema::Kind::equilibration) return "equilibration " + gas;
+  const std::string e = job.e ? fmt::format("e={} ", *job.e) : "";
+  return fmt::format("cooling {}{}{}", e, gas, effects);
+}
+
+std::string e_text(const schema::Job& job) {
+  return job.e ? number_text(*job.e) : "-";
+}
+
+}  // namespace haff::campaign

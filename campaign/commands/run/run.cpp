@@ -1,0 +1,180 @@
+#include "campaign/commands/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "campaign/accuracy/targets.hpp"
+#include "campaign/base/output/output.hpp"
+#include "campaign/base/process/cpu_time.hpp"
+#include "campaign/base/process/exit_code.hpp"
+#include "campaign/base/process/signals.hpp"
+#include "campaign/base/process/version.hpp"
+#include "campaign/base/text/command_text.hpp"
+#include "campaign/base/text/duration.hpp"
+#include "campaign/commands/run/status.hpp"
+#include "campaign/run/event_log.hpp"
+#include "campaign/run/on_finish.hpp"
+#include "campaign/run/process.hpp"
+#include "campaign/run/work_left.hpp"
+
+namespace haff::campaign {
+namespace {
+
+// Round by round, until the targets are met or something ends it.
+RoundEnd run_rounds(schema::Store& store, const RunOptions& options, EventLog& log) {
+  const auto start = std::chrono::steady_clock::now();
+  for (;;) {
+    const RoundEnd ended = run_round(store, options, start, log);
+    if (stop_signal() != 0) return ended;
+    keep_predictions(store);
+    if (ended.over_limit || ended.store_error) return ended;
+    std::optional<double> affordable = options.cpu_budget;
+    if (affordable) *affordable -= cpu_seconds_of_ended_children();
+    if (add_realizations(store, affordable) == 0) return ended;
+  }
+}
+
+bool any(const std::vector<TargetProgress>& targets, Verdict verdict) {
+  return std::ranges::any_of(targets,
+                             [=](const TargetProgress& each) { return each.verdict == verdict; });
+}
+
+int conclusion(const schema::Summary& summary, const std::vector<TargetProgress>& targets,
+               const RoundEnd& ended) {
+  if (stop_signal() != 0) return exit_signal_base + stop_signal();
+  if (ended.store_error) return exit_failed;
+  if (ended.over_limit && may_have_work(summary)) return exit_out_of_time;
+  if (summary.jobs.at(schema::Status::failed) > 0 || summary.blocked > 0) return exit_failed;
+  if (any(targets, Verdict::short_of)) return exit_out_of_time;
+  return any(targets, Verdict::unreachable) ? exit_failed : exit_complete;
+}
+
+// Why a run with a limit ended, where that is not plain from the tables.
+void print_limits(const RunOptions& options, const RoundEnd& ended, int exit_code) {
+  if (ended.seconds_needed && exit_code == exit_out_of_time)
+    say("Jobs are left that --max-time is too short for: it must leave at least {} to store "
+        "anything of one\n",
+        duration_text(*ended.seconds_needed));
+  if (options.cpu_budget && exit_code == exit_out_of_time)
+    say("Stopped: {} of CPU time spent, --budget allows {}\n",
+        duration_text(cpu_seconds_of_ended_children()), duration_text(*options.cpu_budget));
+}
+
+// Who still uses the store keeps its log.
+void close_log(schema::Store& store) {
+  constexpr std::chrono::milliseconds patience{1000};
+  if (store.close_log(patience)) return;
+  say("Another program still uses {0}: its log, {0}-wal, belongs to it and stays until a later run "
+      "has ended\n",
+      store.path().string());
+}
+
+// The file at the store's path is no longer the one that this run has written. What that one holds
+// can still be read by this process, as long as it has it open.
+int rescue(schema::Store& store, const std::string& what) {
+  const std::string name = store.path().string();
+  std::filesystem::path saved;
+  for (int k = 1; saved.empty() || std::filesystem::exists(saved); ++k)
+    saved = fmt::format("{}.rescued-{}", name, k);
+  complain("campaign: {} {} while the run was on\n", name, what);
+  try {
+    store.back_up(saved);
+    store.abandon_log();
+    complain(
+        "All of it that could still be read is in {0}: look at it ({1}), then put it in its "
+        "place\n",
+        saved.string(), command_text("status", saved));
+  } catch (const schema::StoreError& error) {
+    const std::filesystem::path log = saved.string() + "-log";
+    if (std::filesystem::exists(name)) store.abandon_log(log);
+    complain(
+        "What it held could not be saved ({}). Lost is all that this run computed, and what is in "
+        "no copy of yours. If {} is to be used as it is now, {} finds out whether it can be\n",
+        error.what(), name, command_text("verify", store.path()));
+  }
+  return exit_failed;
+}
+
+int work_to_the_end(schema::Store& store, const RunOptions& options, EventLog& log) {
+  store.open_log();
+  const RoundEnd ended = run_rounds(store, options, log);
+  if (store.displaced()) return exit_failed;
+  const int exit_code = conclusion(store.summary(), progress_of(store, store.targets()), ended);
+  if (options.json) {
+    print_outcome_json(store, exit_code);
+  } else {
+    print_limits(options, ended, exit_code);
+    print_outcome(store);
+  }
+  close_log(store);
+  return exit_code;
+}
+
+int work_or_rescue(schema::Store& store, const RunOptions& options, EventLog& log) {
+  int exit_code = exit_failed;
+  try {
+    exit_code = work_to_the_end(store, options, log);
+  } catch (const schema::StoreError&) {
+    if (!store.displaced()) throw;
+  }
+  const auto what = store.displaced();
+  return what ? rescue(store, *what) : exit_code;
+}
+
+void log_start(const RunOptions& options, EventLog& log) {
+  const schema::Owner me = this_process();
+  log.add("run_started", {{"store", std::filesystem::absolute(options.store).string()},
+                          {"workers", options.workers},
+                          {"threads", options.threads},
+                          {"host", me.host},
+                          {"pid", me.pid},
+                          {"code_version", code_version()}});
+}
+
+// What is said at the very end, to the log and to the command of --on-finish, however the run
+// ended.
+void announce_end(const RunOptions& options, int exit_code, EventLog& log) {
+  RunOutcome outcome{.exit_code = exit_code, .store = options.store};
+  try {
+    auto jobs = schema::Reader(options.store).job_counts();
+    outcome.done = jobs[schema::Status::done];
+    outcome.failed = jobs[schema::Status::failed];
+    outcome.pending = jobs[schema::Status::pending];
+  } catch (const schema::StoreError&) {  // it has said so itself
+  }
+  log.add("run_ended", {{"exit_code", exit_code},
+                        {"done", outcome.done},
+                        {"failed", outcome.failed},
+                        {"pending", outcome.pending},
+                        {"cpu_seconds", cpu_seconds_of_ended_children()}});
+  if (!options.on_finish.empty()) run_on_finish(options.on_finish, outcome);
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  note_stop_signals();
+  EventLog log;
+  if (!options.log_json.empty()) log.open(options.log_json);
+  log_start(options, log);
+  int exit_code = exit_failed;
+  try {
+    schema::Store store = schema::Store::open(options.store);
+    store.wait_for_locks_while(may_wait_for_locks);
+    exit_code = work_or_rescue(store, options, log);
+  } catch (const std::exception& error) {
+    log.add("message", {{"level", "error"}, {"text", error.what()}});
+    announce_end(options, exit_failed, log);
+    throw;
+  }
+  announce_end(options, exit_code, log);
+  return exit_code;
+}
+
+}  // namespace haff::campaign

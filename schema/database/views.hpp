@@ -1,0 +1,13 @@
+// The views that average over realizations: mean_series, mean_temperatures, mean_tau_c and
+// mean_profiles. They hold no data. The program makes them out of its list of columns whenever a
+// store is made or brought forward. Private to schema/.
+#pragma once
+
+#include <string>
+
+namespace haff::schema {
+
+// Makes them, in place of those of an older program.
+std::string mean_views_script();
+
+}  // namespace haff::schema

@@ -1,0 +1,111 @@
+#include "schema/grid/grid.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include "schema/grid/document.hpp"
+#include "schema/grid/effects.hpp"
+#include "schema/grid/examiner.hpp"
+#include "schema/grid/job.hpp"
+#include "schema/grid/rules.hpp"
+#include "schema/grid/source.hpp"
+
+namespace haff::schema {
+
+namespace {
+
+std::string contents(const std::filesystem::path& path) try {
+  std::ifstream stream(path, std::ios::binary);
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
+  return {std::istreambuf_iterator<char>(stream), {}};
+} catch (const std::ios_base::failure&) {
+  throw GridError(path.string() + ": cannot be read: " + std::strerror(errno));
+}
+
+std::vector<std::uint64_t> seeds(const Placed& placed) {
+  std::vector<std::uint64_t> list;
+  if (placed.value.is_number()) {
+    const auto count = static_cast<std::uint64_t>(placed.value.get<double>());
+    for (std::uint64_t seed = 1; seed <= count; ++seed) list.push_back(seed);
+  } else {
+    for (const Json& seed : placed.value)
+      list.push_back(static_cast<std::uint64_t>(seed.get<double>()));
+  }
+  return list;
+}
+
+std::vector<Target> targets(const Source& source) {
+  const auto placed = source.find("target");
+  if (!placed) return {};
+  std::vector<Target> all;
+  for (const auto& [quantity, wish] : placed->value.items()) {
+    Target target{.series = {}, .quantity = quantity, .se = wish["se"].get<double>()};
+    if (wish.contains("tau")) {
+      target.tau_from = wish["tau"][0].get<double>();
+      target.tau_to = wish["tau"][1].get<double>();
+    }
+    all.push_back(std::move(target));
+  }
+  return all;
+}
+
+std::vector<Effects> effects(const Placed& placed) {
+  std::vector<Effects> all;
+  for (Json& one : expanded(placed.value)) {
+    // What is so without being asked for is no effect.
+    if (one.value("/restitution/law"_json_pointer, "") == "constant") one.erase("restitution");
+    Effects effects(one.dump());
+    if (std::find(all.begin(), all.end(), effects) == all.end()) all.push_back(std::move(effects));
+  }
+  return all;
+}
+
+SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {
+  SubGrid grid{.d = source.list<int>("d"),
+               .e = source.e(),
+               .n = source.list<double>("n"),
+               .particles = source.list<std::uint32_t>("N"),
+               .seeds = seeds(source["seeds"]),
+               .tau_max = std::move(tau_max),
+               .sample_every = source.list<double>("sample_every"),
+               .equilibrate = source.list<double>("equilibrate"),
+               .checkpoint_every = source["checkpoint_every"].value.get<double>(),
+               .observables = source.observables(),
+               .profiles_every = std::nullopt,
+               .fields_at = {},
+               .effects = effects(source["effects"]),
+               .targets = targets(source)};
+  // Kept where they decide what is measured: elsewhere two grids that differ in them are the same.
+  const auto& names = grid.observables;
+  if (std::any_of(names.begin(), names.end(), is_profile))
+    grid.profiles_every = source["profiles_every"].value.get<double>();
+  if (std::any_of(names.begin(), names.end(), is_field)) {
+    grid.fields_at = source.list<double>("fields_at");
+    std::sort(grid.fields_at.begin(), grid.fields_at.end());
+  }
+  return grid;
+}
+
+}  // namespace
+
+Grid parse_grid(std::string_view text, const std::string& file, const Memory& memory,
+                const Refusal& cannot_start) {
+  const Json document = read_document(text, file);
+  check_rules(document, file);
+  ExaminedGrid examined = examine(document, file, memory, cannot_start);
+  Grid grid{.name = document.value("name", ""), .grids = {}};
+  for (std::size_t k = 0; k < examined.sources.size(); ++k)
+    grid.grids.push_back(sub_grid(examined.sources[k], std::move(examined.tau_max[k])));
+  return grid;
+}
+
+Grid read_grid(const std::filesystem::path& path, const Memory& memory,
+               const Refusal& cannot_start) {
+  return parse_grid(contents(path), path.string(), memory, cannot_start);
+}
+
+}  // namespace haff::schema

@@ -1,0 +1,108 @@
+#include "schema/grid/job.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "schema/grid/effects.hpp"
+
+namespace haff::schema {
+
+namespace {
+
+// The shortest text that reads back as the same double; zero has no sign.
+std::string real(double value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value + 0.0).ptr;
+  return {text.data(), end};
+}
+
+}  // namespace
+
+std::string_view name(Kind kind) {
+  return kind == Kind::equilibration ? "equilibration" : "cooling";
+}
+
+Kind kind_named(std::string_view text) {
+  for (const Kind kind : {Kind::equilibration, Kind::cooling})
+    if (name(kind) == text) return kind;
+  throw std::invalid_argument("no kind of job is called " + std::string(text));
+}
+
+std::string_view name(Status status) {
+  return statuses[static_cast<std::size_t>(status)].name;
+}
+
+Status status_named(std::string_view text) {
+  for (const StatusEntry& entry : statuses)
+    if (entry.name == text) return entry.status;
+  throw std::invalid_argument("no status is called " + std::string(text));
+}
+
+Job equilibration_of(const Job& cooling) {
+  Job job = cooling;
+  job.kind = Kind::equilibration;
+  job.e = 1;
+  job.sample_every = equilibration_sample_every;
+  job.effects = effects_of_equilibration(cooling.effects);
+  job.observables = {"laguerre", "temperature"};
+  job.profiles_every = std::nullopt;
+  job.fields_at.clear();
+  return job;
+}
+
+std::string identity(const Job& job) {
+  return R"({"d":)" + std::to_string(job.d) +            //
+         R"(,"e":)" + (job.e ? real(*job.e) : "null") +  //
+         R"(,"effects":)" + job.effects.text() +         //
+         R"(,"equilibrate":)" + real(job.equilibrate) +  //
+         (job.fields_at.empty() ? "" : R"(,"fields_at":)" + fields_at_text(job.fields_at)) +
+         R"(,"kind":")" + std::string(name(job.kind)) +              //
+         R"(","n":)" + real(job.n) +                                 //
+         R"(,"observables":)" + observables_text(job.observables) +  //
+         R"(,"particles":)" + std::to_string(job.particles) +        //
+         (job.profiles_every ? R"(,"profiles_every":)" + real(*job.profiles_every) : "") +
+         R"(,"sample_every":)" + real(job.sample_every) +  //
+         R"(,"seed":)" + std::to_string(job.seed) + "}";
+}
+
+bool cools_by_haff(const Job& job) {
+  return job.e.has_value() && !beyond_haffs_law(job.effects);
+}
+
+std::string series_identity(Job job) {
+  job.seed = 0;
+  return identity(job);
+}
+
+bool is_profile(std::string_view observable) {
+  return observable == "distribution" || observable == "correlations" ||
+         observable == "structure" || observable == "clusters";
+}
+
+bool is_field(std::string_view observable) {
+  return observable == "fields";
+}
+
+std::string observables_text(const std::vector<std::string>& observables) {
+  auto sorted = observables;
+  std::sort(sorted.begin(), sorted.end());
+  return nlohmann::json(sorted).dump();
+}
+
+std::vector<std::string> observables_in(const std::string& text) {
+  return nlohmann::json::parse(text).get<std::vector<std::string>>();
+}
+
+std::string fields_at_text(const std::vector<double>& fields_at) {
+  std::string text;
+  for (const double tau : fields_at) text += (text.empty() ? "" : ",") + real(tau);
+  return "[" + text + "]";
+}
+
+std::vector<double> fields_at_in(const std::string& text) {
+  return nlohmann::json::parse(text).get<std::vector<double>>();
+}
+
+}  // namespace haff::schema

@@ -1,0 +1,86 @@
+#include "schema/store/averaged_tables.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+
+#include <memory>
+#include <new>
+#include <string>
+#include <type_traits>
+#include <variant>
+
+namespace haff::schema {
+namespace {
+
+struct Table {
+  const char* name;
+  const char* rows;
+};
+
+constexpr Table tables[] = {
+    {"mean_series", "SELECT * FROM mean_series"},
+    {"mean_temperatures", "SELECT * FROM mean_temperatures"},
+    {"mean_profiles", "SELECT * FROM mean_profiles"},
+    {"mean_tau_c", "SELECT * FROM mean_tau_c"},
+    {"target_outcomes", "SELECT * FROM target_outcomes"},
+    {"job_effects", "SELECT * FROM job_effects"},
+    {"jobs",
+     "SELECT job_id, kind, d, e, n, particles, seed, equilibrate, sample_every, effects, "
+     "observables, tau_max, status, attempts, error, tau, collisions, cpu_seconds, "
+     "expected_cpu_seconds, created, started, finished, code_version, host FROM jobs"},
+};
+
+void bind(SQLite::Statement& insert, int place, const Value& value) {
+  std::visit(
+      [&](const auto& held) {
+        using Held = std::decay_t<decltype(held)>;
+        if constexpr (std::is_same_v<Held, Null>)
+          insert.bind(place);
+        else if constexpr (std::is_same_v<Held, Blob>)
+          insert.bind(place, held.data(), static_cast<int>(held.size()));
+        else
+          insert.bind(place, held);
+      },
+      value);
+}
+
+void copy(const Reader& store, const Table& table, SQLite::Database& file) {
+  Query rows = store.query(table.rows);
+  std::string columns, places;
+  for (const std::string& column : rows.columns()) {
+    const char* comma = columns.empty() ? "" : ", ";
+    columns += comma + column;
+    places += std::string(comma) + '?';
+  }
+  file.exec(std::string("CREATE TABLE ") + table.name + " (" + columns + ")");
+  SQLite::Statement insert(file,
+                           std::string("INSERT INTO ") + table.name + " VALUES (" + places + ")");
+  while (const auto row = rows.next()) {
+    for (std::size_t k = 0; k < row->size(); ++k) bind(insert, static_cast<int>(k) + 1, (*row)[k]);
+    insert.exec();
+    insert.reset();
+  }
+}
+
+struct Free {
+  void operator()(unsigned char* bytes) const { sqlite3_free(bytes); }
+};
+
+}  // namespace
+
+std::vector<std::byte> averaged_tables(const Reader& store) try {
+  SQLite::Database file(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  SQLite::Transaction transaction(file);
+  for (const Table& table : tables) copy(store, table, file);
+  transaction.commit();
+  sqlite3_int64 size = 0;
+  const std::unique_ptr<unsigned char, Free> bytes(
+      sqlite3_serialize(file.getHandle(), "main", &size, 0));
+  if (!bytes) throw std::bad_alloc();
+  const auto* begin = reinterpret_cast<const std::byte*>(bytes.get());
+  return {begin, begin + size};
+} catch (const SQLite::Exception& error) {
+  throw StoreError(store.path().string() + ": its averages cannot be gathered: " + error.what());
+}
+
+}  // namespace haff::schema

@@ -1,0 +1,17 @@
+// The averaged tables of a store as a small SQLite file of their own: what a page or a mail can
+// take along, and any reader of SQLite can ask.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "schema/store/store.hpp"
+
+namespace haff::schema {
+
+// The bytes of an SQLite file with the tables mean_series, mean_temperatures, mean_profiles,
+// mean_tau_c, target_outcomes and job_effects, which hold the rows that the store's views of these
+// names have now, and the table jobs without what only a run needs. Reals keep their bits.
+std::vector<std::byte> averaged_tables(const Reader& store);
+
+}  // namespace haff::schema

@@ -1,0 +1,638 @@
+// A grid file becomes lists with every default filled in, or one message that says what is wrong.
+#include "schema/grid/grid.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "schema/fixture.hpp"
+
+using namespace haff::schema;
+
+namespace {
+
+constexpr Memory machine{.bytes = 8e9, .bytes_per_particle = 200};
+
+Grid parse(const std::string& text) {
+  return parse_grid(text, "g.json", machine);
+}
+
+// A complete flat grid, with one more member in front or instead of one of its own.
+std::string with(const std::string& key, const std::string& value) {
+  std::string text;
+  for (const auto& [own, usual] : std::vector<std::pair<std::string, std::string>>{
+           {"e", "0.8"}, {"n", "0.4"}, {"N", "1000"}, {"seeds", "1"}, {"tau_max", "90"}})
+    if (own != key) text.append("\"").append(own).append("\": ").append(usual).append(", ");
+  return "{" + text + '"' + key + "\": " + value + "}";
+}
+
+std::string complaint(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const GridError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+void check_complaint(const std::string& text, const std::string& message) {
+  CAPTURE(text);
+  CHECK(complaint(text) == message);
+}
+
+}  // namespace
+
+TEST_CASE("a grid with defaults beside it is made explicit") {
+  const Grid grid = parse(R"({
+    "name": "first",
+    "grids": [{"e": [0.80, 0.90], "n": 0.4, "N": 32000, "seeds": [1, 2],
+               "tau_max": {"0.80": 90, "0.90": 180}, "sample_every": 1}],
+    "equilibrate": 50, "checkpoint_every": 10, "observables": ["temperature", "laguerre"]})");
+  CHECK(grid.name == "first");
+  REQUIRE(grid.grids.size() == 1);
+  const SubGrid& only = grid.grids[0];
+  CHECK(only.e == std::vector{0.8, 0.9});
+  CHECK(only.n == std::vector{0.4});
+  CHECK(only.particles == std::vector<std::uint32_t>{32000});
+  CHECK(only.seeds == std::vector<std::uint64_t>{1, 2});
+  CHECK(only.tau_max == std::vector{90.0, 180.0});
+  CHECK(only.sample_every == std::vector{1.0});
+  CHECK(only.equilibrate == std::vector{50.0});
+  CHECK(only.checkpoint_every == 10);
+  CHECK(only.observables == std::vector<std::string>{"laguerre", "temperature"});
+}
+
+TEST_CASE("a flat object is one grid with the schema's defaults") {
+  const Grid grid = parse(R"({"e": 0.8, "n": 0.4, "N": 100, "seeds": 3, "tau_max": 90})");
+  REQUIRE(grid.grids.size() == 1);
+  const SubGrid& only = grid.grids[0];
+  CHECK(only.seeds == std::vector<std::uint64_t>{1, 2, 3});
+  CHECK(only.tau_max == std::vector{90.0});
+  CHECK(only.sample_every == std::vector{1.0});
+  CHECK(only.equilibrate == std::vector{50.0});
+  CHECK(only.checkpoint_every == 10);
+  CHECK(only.observables == std::vector<std::string>{"laguerre", "temperature"});
+}
+
+TEST_CASE("a grid's own keys win over those beside it") {
+  const Grid grid = parse(R"({"e": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 90,
+                              "grids": [{}, {"e": [0.9], "seeds": [7], "tau_max": 5}]})");
+  REQUIRE(grid.grids.size() == 2);
+  CHECK(grid.grids[0].e == std::vector{0.8});
+  CHECK(grid.grids[1].e == std::vector{0.9});
+  CHECK(grid.grids[1].seeds == std::vector<std::uint64_t>{7});
+  CHECK(grid.grids[1].tau_max == std::vector{5.0});
+  CHECK(grid.grids[1].n == std::vector{0.4});
+}
+
+TEST_CASE("whole numbers may be written as reals") {
+  const Grid grid = parse(with("N", "[32000.0, 6.4e4]"));
+  CHECK(grid.grids[0].particles == std::vector<std::uint32_t>{32000, 64000});
+}
+
+TEST_CASE("the largest seed keeps all its digits") {
+  const Grid grid = parse(with("seeds", "[0, 9007199254740991]"));
+  CHECK(grid.grids[0].seeds == std::vector<std::uint64_t>{0, 9007199254740991});
+}
+
+TEST_CASE("a scalar stands for a list of one") {
+  const Grid grid = parse(with("observables", "\"temperature\""));
+  CHECK(grid.grids[0].observables == std::vector<std::string>{"temperature"});
+  CHECK(parse(with("sample_every", "2")).grids[0].sample_every == std::vector{2.0});
+  CHECK(parse(with("sample_every", "[2, 4]")).grids[0].sample_every == std::vector{2.0, 4.0});
+}
+
+TEST_CASE("tau_max is matched to e by value, in the order of e") {
+  const Grid grid = parse(R"({"e": [0.9, 0.8, 0.85], "n": 0.4, "N": 100, "seeds": 1,
+                              "tau_max": {"0.80": 1, "0.850": 2, "9e-1": 3}})");
+  CHECK(grid.grids[0].tau_max == std::vector{3.0, 1.0, 2.0});
+}
+
+TEST_CASE("a tau_max map beside several grids serves each with its own e") {
+  const Grid grid = parse(R"({"n": 0.4, "N": 100, "seeds": 1, "tau_max": {"0.8": 1, "0.9": 2},
+                              "grids": [{"e": 0.8}, {"e": 0.9}]})");
+  CHECK(grid.grids[0].tau_max == std::vector{1.0});
+  CHECK(grid.grids[1].tau_max == std::vector{2.0});
+}
+
+TEST_CASE("negative zero is zero") {
+  CHECK_FALSE(std::signbit(parse(with("e", "-0.0")).grids[0].e[0]));
+}
+
+TEST_CASE("a file is read, and named when it cannot be") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "g.json") << with("e", "0.9");
+  CHECK(read_grid(folder / "g.json", machine).grids[0].e == std::vector{0.9});
+  CHECK_THROWS_WITH_AS(
+      read_grid(folder / "h.json", machine),
+      ((folder / "h.json").string() + ": cannot be read: No such file or directory").c_str(),
+      GridError);
+  CHECK_THROWS_WITH_AS(read_grid(folder / "", machine),
+                       ((folder / "").string() + ": cannot be read: Is a directory").c_str(),
+                       GridError);
+}
+
+TEST_CASE("what is not JSON is shown by line and column") {
+  check_complaint("",
+                  "g.json: is not JSON: line 1, column 1: syntax error while parsing value - "
+                  "unexpected end of input; expected '[', '{', or a literal");
+  check_complaint("{\n  \"e\": 0.8,\n  n: 0.4}",
+                  "g.json: is not JSON: line 3, column 4: syntax error while parsing object key - "
+                  "invalid literal; last read: '0.8,<U+000A>  n:'; expected string literal");
+  check_complaint("{\"e\": NaN}",
+                  "g.json: is not JSON: line 1, column 7: syntax error while parsing value - "
+                  "invalid literal; last read: '\"e\": N'");
+  check_complaint("{\"e\": 0.8",
+                  "g.json: is not JSON: line 1, column 10: syntax error while parsing object - "
+                  "unexpected end of input; expected '}'");
+  check_complaint("{\"e\": 0.8} {}",
+                  "g.json: is not JSON: line 1, column 12: syntax error while parsing value - "
+                  "unexpected '{'; expected end of input");
+  check_complaint("{\"e\": \"\xff\"}",
+                  "g.json: is not JSON: line 1, column 8: syntax error while parsing value - "
+                  "invalid string: ill-formed UTF-8 byte; last read: '\"\xff'");
+}
+
+TEST_CASE("a key given twice is found where it is") {
+  check_complaint(R"({"e": 0.8, "e": 0.9})",
+                  "g.json: /e: the key is there twice; expected each key once");
+  check_complaint(R"({"grids": [{"e": 0.8}, {"N": 10, "N": 10}]})",
+                  "g.json: /grids/1/N: the key is there twice; expected each key once");
+  check_complaint(R"({"tau_max": {"0.8": 1, "0.8": 2}})",
+                  "g.json: /tau_max/0.8: the key is there twice; expected each key once");
+}
+
+TEST_CASE("numbers that no double holds are found where they are") {
+  check_complaint(with("tau_max", "1e999"),
+                  "g.json: /tau_max: 1e999 is too large; expected a finite number");
+  check_complaint(R"({"grids": [{"e": [0.8, -1e999]}]})",
+                  "g.json: /grids/0/e/1: -1e999 is too large; expected a finite number");
+}
+
+TEST_CASE("nesting beyond reason is refused") {
+  CHECK(complaint(with("e", std::string(100000, '[')))
+            .ends_with("/0/0: is nested too deeply; expected a grid"));
+}
+
+TEST_CASE("an unknown key is named with the nearest known one") {
+  check_complaint(with("tau_mx", "1"), "g.json: /tau_mx: unknown key; did you mean \"tau_max\"?");
+  check_complaint(with("E", "1"), "g.json: /E: unknown key; did you mean \"e\"?");
+  check_complaint(with("sample_evry", "1"),
+                  "g.json: /sample_evry: unknown key; did you mean \"sample_every\"?");
+  check_complaint(R"({"grids": [{"e": 0.8}, {"seed": 1}]})",
+                  "g.json: /grids/1/seed: unknown key; did you mean \"seeds\"?");
+  check_complaint(
+      with("density", "1"),
+      "g.json: /density: unknown key; expected one of \"N\", \"checkpoint_every\", "
+      "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
+      "\"observables\", "
+      "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
+  check_complaint(R"({"E": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 1})",
+                  "g.json: /E: unknown key; did you mean \"e\"?");
+  check_complaint(
+      with("a/b~c", "1"),
+      "g.json: /a~1b~0c: unknown key; expected one of \"N\", \"checkpoint_every\", "
+      "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
+      "\"observables\", "
+      "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
+}
+
+TEST_CASE("a key of earlier versions is refused with the reason") {
+  check_complaint(with("precision", "\"double\""),
+                  "g.json: /precision: is no longer a key: every run is in double; leave it out");
+}
+
+TEST_CASE("a missing key is named") {
+  check_complaint("{}",
+                  "g.json: has no \"e\"; expected a normal restitution coefficient, from 0 to 1, "
+                  "or a list of them");
+  check_complaint(R"({"e": 0.8, "n": 0.4, "N": 100, "seeds": 1})",
+                  "g.json: has no \"tau_max\"; expected a number above 0 and at most 1e9 "
+                  "[collisions per particle], or an object from each e to such a number");
+  check_complaint(
+      R"({"n": 0.4, "N": 100, "seeds": 1, "grids": [{"e": 0.8, "tau_max": 1}, {"e": 1}]})",
+      "g.json: /grids/1: has no \"tau_max\", and there is none beside \"grids\"; expected a number "
+      "above 0 and at most 1e9 [collisions per particle], or an object from each e to such a "
+      "number");
+}
+
+TEST_CASE("a value of the wrong type or out of range is shown with what was expected") {
+  check_complaint("[]",
+                  "g.json: [] is not accepted; expected a JSON object: one grid, or a list "
+                  "\"grids\" with defaults for all beside it");
+  check_complaint("3",
+                  "g.json: 3 is not accepted; expected a JSON object: one grid, or a list "
+                  "\"grids\" with defaults for all beside it");
+  check_complaint(R"({"grids": []})",
+                  "g.json: /grids: [] is not accepted; expected a list of grids, at least one");
+  check_complaint(R"({"grids": {}})",
+                  "g.json: /grids: {} is not accepted; expected a list of grids, at least one");
+  check_complaint(R"({"grids": [3]})",
+                  "g.json: /grids/0: 3 is not accepted; expected a grid: an object with e, n, N, "
+                  "seeds and tau_max, here or beside \"grids\"");
+  check_complaint(with("name", "3"), "g.json: /name: 3 is not accepted; expected a name, as text");
+  check_complaint(with("e", "\"0.8\""),
+                  "g.json: /e: \"0.8\" is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1, or a list of them");
+  check_complaint(with("e", "true"),
+                  "g.json: /e: true is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1, or a list of them");
+  check_complaint(with("e", "null"),
+                  "g.json: /e: null is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1, or a list of them");
+  check_complaint(with("e", "1.2"),
+                  "g.json: /e: 1.2 is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1, or a list of them");
+  check_complaint(with("e", "-0.1"),
+                  "g.json: /e: -0.1 is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1, or a list of them");
+  check_complaint(with("e", "[]"),
+                  "g.json: /e: [] is not accepted; expected a normal restitution coefficient, from "
+                  "0 to 1, or a list of them");
+  check_complaint(with("e", "[0.8, [0.9]]"),
+                  "g.json: /e/1: [0.9] is not accepted; expected a normal restitution coefficient, "
+                  "from 0 to 1");
+  check_complaint(R"({"grids": [{"e": 0.8}, {"e": [0.8, 1.2]}]})",
+                  "g.json: /grids/1/e/1: 1.2 is not accepted; expected a normal restitution "
+                  "coefficient, from 0 to 1");
+  check_complaint(with("n", "0"),
+                  "g.json: /n: 0 is not accepted; expected a number density [sigma^-d], from 1e-6 "
+                  "to below close packing: sqrt(2) = 1.41421 for spheres, 2/sqrt(3) = 1.1547 for "
+                  "disks, more for a mixture with smaller particles, or a list of them");
+  check_complaint(with("n", "1.5"),
+                  "g.json: /n: 1.5 is too dense: spheres would fill 0.785 of their box; expected "
+                  "less than close packing, pi/sqrt(18) = 0.740, n below 1.41");
+  check_complaint(with("N", "1"),
+                  "g.json: /N: 1 is not accepted; expected a number of particles, a whole number "
+                  "from 2 to below 2^28, or a list of them");
+  check_complaint(with("N", "1000.5"),
+                  "g.json: /N: 1000.5 is not accepted; expected a number of particles, a whole "
+                  "number from 2 to below 2^28, or a list of them");
+  check_complaint(with("N", "{}"),
+                  "g.json: /N: {} is not accepted; expected a number of particles, a whole number "
+                  "from 2 to below 2^28, or a list of them");
+  check_complaint(with("seeds", "0"),
+                  "g.json: /seeds: 0 is not accepted; expected a list of seeds, or a count K from "
+                  "1 to 1000000 that stands for 1 ... K");
+  check_complaint(with("seeds", "1.5"),
+                  "g.json: /seeds: 1.5 is not accepted; expected a list of seeds, or a count K "
+                  "from 1 to 1000000 that stands for 1 ... K");
+  check_complaint(with("seeds", "[1, -1]"),
+                  "g.json: /seeds/1: -1 is not accepted; expected a seed, a whole number from 0 to "
+                  "9007199254740991 (2^53 - 1)");
+  check_complaint(with("seeds", "[9007199254740992]"),
+                  "g.json: /seeds/0: 9007199254740992 is not accepted; expected a seed, a whole "
+                  "number from 0 to 9007199254740991 (2^53 - 1)");
+  check_complaint(with("seeds", "[]"),
+                  "g.json: /seeds: [] is not accepted; expected a list of seeds, or a count K from "
+                  "1 to 1000000 that stands for 1 ... K");
+  check_complaint(with("tau_max", "0"),
+                  "g.json: /tau_max: 0 is not accepted; expected a number above 0 and at most 1e9 "
+                  "[collisions per particle], or an object from each e to such a number");
+  check_complaint(with("tau_max", "[90]"),
+                  "g.json: /tau_max: [90] is not accepted; expected a number above 0 and at most "
+                  "1e9 [collisions per particle], or an object from each e to such a number");
+  check_complaint(with("tau_max", "{}"),
+                  "g.json: /tau_max: {} is not accepted; expected a number above 0 and at most 1e9 "
+                  "[collisions per particle], or an object from each e to such a number");
+  check_complaint(with("tau_max", R"({"0.8": -1})"),
+                  "g.json: /tau_max/0.8: -1 is not accepted; expected collisions per particle, a "
+                  "number above 0 and at most 1e9");
+  check_complaint(with("sample_every", "0"),
+                  "g.json: /sample_every: 0 is not accepted; expected an interval between samples "
+                  "[collisions per particle], above 0 and at most 1e9, or a list of them");
+  check_complaint(
+      with("equilibrate", "25"),
+      "g.json: /equilibrate: 25 is not accepted; expected the length of equilibration [elastic "
+      "collisions per particle], a multiple of 10 from 10 to 1e6, or a list of them");
+  check_complaint(
+      with("equilibrate", "0"),
+      "g.json: /equilibrate: 0 is not accepted; expected the length of equilibration [elastic "
+      "collisions per particle], a multiple of 10 from 10 to 1e6, or a list of them");
+  check_complaint(with("checkpoint_every", "[10, 20]"),
+                  "g.json: /checkpoint_every: [10,20] is not accepted; expected an interval "
+                  "between checkpoints [collisions per particle], above 0 and at most 1e9");
+  check_complaint(with("observables", "[]"),
+                  "g.json: /observables: [] is not accepted; expected the name of an observable, "
+                  "or a list of them");
+  check_complaint(with("observables", "\"laguere\""),
+                  "g.json: /observables: \"laguere\" is not accepted; did you mean \"laguerre\"?");
+  check_complaint(
+      with("observables", "[\"laguere\"]"),
+      "g.json: /observables/0: \"laguere\" is not accepted; did you mean \"laguerre\"?");
+  check_complaint(with("observables", "[\"pressure\"]"),
+                  "g.json: /observables/0: \"pressure\" is not accepted; expected one of "
+                  "\"temperature\", \"laguerre\", \"distribution\", \"correlations\", "
+                  "\"structure\", \"clusters\", \"fields\"");
+  check_complaint(with("observables", "[3]"),
+                  "g.json: /observables/0: 3 is not accepted; expected the name of an observable");
+}
+
+TEST_CASE("a long value is cut") {
+  check_complaint(
+      with("name", "[" + std::string(200, ' ') +
+                       R"("the quick brown fox jumps over the lazy dog, and once more over it"])"),
+      "g.json: /name: [\"the quick brown fox jumps over the lazy dog, and once more... is not "
+      "accepted; expected a name, as text");
+}
+
+TEST_CASE("a value repeated within a list is found, however it is written") {
+  check_complaint(with("e", "[0.8, 0.9, 0.80]"),
+                  "g.json: /e/2: 0.8 is already at /e/0; expected each value once");
+  check_complaint(with("N", "[1000, 1e3]"),
+                  "g.json: /N/1: 1000.0 is already at /N/0; expected each value once");
+  check_complaint(with("seeds", "[1, 2, 2.0]"),
+                  "g.json: /seeds/2: 2.0 is already at /seeds/1; expected each value once");
+  check_complaint(R"({"grids": [{"e": 0.8}, {"observables": ["laguerre", "laguerre"]}]})",
+                  "g.json: /grids/1/observables/1: \"laguerre\" is already at "
+                  "/grids/1/observables/0; expected each value once");
+}
+
+TEST_CASE("a tau_max map must name the e of its grid, each once") {
+  check_complaint(with("tau_max", R"({"0.9": 90})"),
+                  "g.json: /tau_max/0.9: there is no such e; expected the e of this grid: 0.8");
+  check_complaint(with("tau_max", R"({"0.8": 90, "0.9": 180})"),
+                  "g.json: /tau_max/0.9: there is no such e; expected the e of this grid: 0.8");
+  check_complaint(with("tau_max", R"({"0.8": 90, "0.80": 180})"),
+                  "g.json: /tau_max/0.80: is the second entry for e = 0.8; expected one");
+  check_complaint(with("tau_max", R"({"0.8": 90, "all": 180})"),
+                  "g.json: /tau_max/all: is not a number; expected an e of this grid");
+  check_complaint(
+      R"({"e": [0.8, 0.9], "n": 0.4, "N": 100, "seeds": 1, "tau_max": {"0.8": 9}})",
+      "g.json: /tau_max: has no entry for e = 0.9; expected one for each e of the grid");
+  check_complaint(
+      R"({"n": 0.4, "N": 100, "seeds": 1, "grids": [
+      {"e": 0.8, "tau_max": {"0.8": 9}}, {"e": 0.9, "tau_max": {"0.90": 9, "0.8": 9}}]})",
+      "g.json: /grids/1/tau_max/0.8: there is no such e; expected the e of this grid: 0.9");
+}
+
+TEST_CASE("a box too small, or a machine too small, is refused with numbers") {
+  check_complaint(with("N", "3"),
+                  "g.json: /N: 3 particles at n = 0.4 make a box of side L = 1.96 sigma; expected "
+                  "L >= 2 sigma, N >= 4");
+  check_complaint(with("N", "[1000, 3]"),
+                  "g.json: /N/1: 3 particles at n = 0.4 make a box of side L = 1.96 sigma; "
+                  "expected L >= 2 sigma, N >= 4");
+  CHECK(complaint(with("N", "4")) == "no complaint");
+  check_complaint(R"({"n": 0.4, "grids": [{"e": 1, "N": 2, "seeds": 1, "tau_max": 1}]})",
+                  "g.json: /grids/0/N: 2 particles at n = 0.4 make a box of side L = 1.71 sigma; "
+                  "expected L >= 2 sigma, N >= 4");
+  check_complaint(with("N", "1e8"),
+                  "g.json: /N: 100000000.0 particles need 20 GB; expected at most the 8 GB of this "
+                  "machine, and N below 2^28");
+  check_complaint(with("N", "1e300"),
+                  "g.json: /N: 1e+300 is not accepted; expected a number of particles, a whole "
+                  "number from 2 to below 2^28, or a list of them");
+}
+
+TEST_CASE("samples must be at least a collision apart and within the run") {
+  check_complaint(with("sample_every", "0.001"),
+                  "g.json: /sample_every: 0.001 is less than one collision of 1000 particles; "
+                  "expected at least 2/N = 0.002");
+  CHECK(complaint(with("sample_every", "0.002")) == "no complaint");
+  check_complaint(
+      with("sample_every", "[1, 100]"),
+      "g.json: /sample_every/1: 100 is longer than the run; expected at most tau_max = 90");
+}
+
+TEST_CASE("profiles and fields have their times where they are asked for") {
+  const auto only = [](const std::string& text) { return parse(text).grids.at(0); };
+  const SubGrid plain = only(with("profiles_every", "20"));
+  CHECK_FALSE(plain.profiles_every);
+  CHECK(plain.fields_at.empty());
+  CHECK(only(with("observables", "\"distribution\"")).profiles_every == 10.0);
+  const SubGrid full = only(
+      with("observables", R"(["fields", "clusters"], "profiles_every": 2, "fields_at": [60, 20])"));
+  CHECK(full.profiles_every == 2.0);
+  CHECK(full.fields_at == std::vector{20.0, 60.0});
+}
+
+TEST_CASE("profiles and fields belong to samples within the run") {
+  check_complaint(
+      with("observables", R"("structure", "profiles_every": 5, "sample_every": [1, 2])"),
+      "g.json: /profiles_every: 5 falls between samples; expected a multiple of sample_every = 2");
+  CHECK(complaint(
+            with("observables", R"("structure", "profiles_every": 0.3, "sample_every": 0.1)")) ==
+        "no complaint");
+  check_complaint(with("observables", R"("structure", "profiles_every": 100)"),
+                  "g.json: /profiles_every: 100 is beyond the run; expected at most tau_max = 90");
+  check_complaint(with("observables", R"("fields", "fields_at": [60, 95])"),
+                  "g.json: /fields_at/1: 95 is beyond the run; expected at most tau_max = 90");
+  check_complaint(
+      with("observables", "\"fields\""),
+      "g.json: has no \"fields_at\", and lists fields among its observables; expected "
+      "when fields are taken [collisions per particle], a multiple of sample_every or a "
+      "list of them");
+  check_complaint(with("observables", R"("fields", "fields_at": -1)"),
+                  "g.json: /fields_at: -1 is not accepted; expected when fields are taken "
+                  "[collisions per particle], a multiple of sample_every or a list of them");
+}
+
+// ---- targets ----------------------------------------------------------------------------------
+
+namespace {
+
+std::string with_target(const std::string& target, const std::string& rest = R"("seeds": 5)") {
+  return R"({"e": 0.8, "n": 0.4, "N": 1000, "tau_max": 90, )" + rest + R"(, "target": )" + target +
+         "}";
+}
+
+}  // namespace
+
+TEST_CASE("targets are read with their windows") {
+  const auto targets =
+      parse(with_target(R"({"a2": {"tau": [5, 15], "se": 5e-4}, "tau_c": {"se": 0.5}})"))
+          .grids[0]
+          .targets;
+  REQUIRE(targets.size() == 2);
+  CHECK(targets[0].quantity == "a2");
+  CHECK(targets[0].tau_from == 5);
+  CHECK(targets[0].tau_to == 15);
+  CHECK(targets[0].se == 5e-4);
+  CHECK(targets[1].quantity == "tau_c");
+  CHECK(targets[1].tau_to == 0);
+}
+
+TEST_CASE("a target that runs cannot judge is refused") {
+  check_complaint(with_target(R"({"a2": {"tau": [5, 15], "se": 5e-4}})", R"("seeds": 3)"),
+                  "g.json: /seeds: 3 are too few pilot runs for a target; expected at least 5 "
+                  "seeds");
+  check_complaint(with_target(R"({"a2": {"tau": [5, 95], "se": 5e-4}})"),
+                  "g.json: /target/a2/tau/1: 95 is beyond the run; expected at most tau_max = 90");
+  check_complaint(with_target(R"({"a2": {"tau": [15, 5], "se": 5e-4}})"),
+                  "g.json: /target/a2/tau: [15,5] holds no interval between samples; expected a "
+                  "window of at least sample_every = 1");
+  check_complaint(
+      with_target(R"({"tau_c": {"se": 1}})", R"("seeds": 5, "observables": ["laguerre"])"),
+      "g.json: /target/tau_c: is not measured; expected \"temperature\" among the observables of "
+      "this grid");
+}
+
+TEST_CASE("a target needs a standard error above 0 and a known quantity") {
+  CHECK(complaint(with_target(R"({"a2": {"tau": [5, 15], "se": 0}})")).find("/target/a2/se") !=
+        std::string::npos);
+  CHECK(complaint(with_target(R"({"a2": {"se": 1e-3}})")).find("/target/a2") != std::string::npos);
+  CHECK(complaint(with_target(R"({"a9": {"se": 1e-3}})")).find("/target") != std::string::npos);
+}
+
+TEST_CASE("a grid may be of disks: d is 3 unless it says 2, and disks have limits of their own") {
+  CHECK(parse(with("e", "0.8")).grids[0].d == std::vector{3});
+  CHECK(parse(with("d", "2")).grids[0].d == std::vector{2});
+  CHECK(parse(with("d", "[2, 3]")).grids[0].d == std::vector{2, 3});
+  check_complaint(with("d", "1"),
+                  "g.json: /d: 1 is not accepted; expected a dimension, 3 (spheres) or 2 (disks), "
+                  "or a list of both");
+  check_complaint(with("d", "[3, 2.5]"),
+                  "g.json: /d/1: 2.5 is not accepted; expected a dimension, 3 (spheres) or 2 "
+                  "(disks)");
+  check_complaint(R"({"d": 2, "e": 0.8, "n": [0.4, 1.2], "N": 1000, "seeds": 1, "tau_max": 90})",
+                  "g.json: /n/1: 1.2 is too dense: disks would fill 0.942 of their box; expected "
+                  "less than close packing, pi/sqrt(12) = 0.907, n below 1.15");
+  CHECK(complaint(R"({"d": 3, "e": 0.8, "n": 1.2, "N": 1000, "seeds": 1, "tau_max": 90})") ==
+        "no complaint");
+  check_complaint(R"({"d": [2, 3], "e": 0.8, "n": 1, "N": 3, "seeds": 1, "tau_max": 90})",
+                  "g.json: /N: 3 disks at n = 1 make a box of side L = 1.73 sigma; expected L >= 2 "
+                  "sigma, N >= 4");
+}
+
+// ---- numbers as people write them -------------------------------------------------------------
+
+TEST_CASE("a number is read as the shortest decimal within 1e-12 of it") {
+  CHECK(parse(with("e", "0.8500000000000001")).grids[0].e == std::vector{0.85});
+  CHECK(parse(with("e", "[0.1, 0.30000000000000004]")).grids[0].e == std::vector{0.1, 0.3});
+  CHECK(parse(with("e", "0.850000001")).grids[0].e == std::vector{0.850000001});
+  CHECK(parse(with("tau_max", R"({"0.8000000000000002": 90})")).grids[0].tau_max ==
+        std::vector{90.0});
+  CHECK(parse(with("effects", R"({"shuffle": {"every": 0.30000000000000004}})"))
+            .grids[0]
+            .effects.front() == R"({"shuffle":{"every":0.3}})");
+  check_complaint(with("e", "[0.85, 0.8500000000000001]"),
+                  "g.json: /e/1: 0.85 is already at /e/0; expected each value once");
+}
+
+TEST_CASE("$schema and keys that begin with _ are for editors and notes") {
+  const Grid grid = parse(R"({"$schema": "grid.schema.json", "_note": {"by": ["me"]}, "e": 0.8,
+                              "n": 0.4, "N": 1000, "seeds": 1, "tau_max": {"0.8": 90, "_": "long"},
+                              "grids": [{"_why": 3}]})");
+  CHECK(grid.grids[0].tau_max == std::vector{90.0});
+  check_complaint(with("$schem", "1"),
+                  "g.json: /$schem: unknown key; expected one of \"N\", \"checkpoint_every\", "
+                  "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", "
+                  "\"name\", \"observables\", \"profiles_every\", \"sample_every\", \"seeds\", "
+                  "\"target\", \"tau_max\"");
+}
+
+TEST_CASE("a number too small for a double is named so") {
+  check_complaint(with("n", "1e-400"),
+                  "g.json: /n: 1e-400 is too small; expected 0 or a number that a double holds");
+  CHECK(parse(with("e", "0e-400")).grids[0].e == std::vector{0.0});
+}
+
+// ---- bounds -----------------------------------------------------------------------------------
+
+TEST_CASE("no number of a grid is beyond what a run can do with it") {
+  for (const auto& each : std::vector<std::pair<std::string, std::string>>{
+           {"tau_max", "1e12"},
+           {"tau_max", "1e300"},
+           {"tau_max", R"({"0.8": 1e12})"},
+           {"equilibrate", "1e9"},
+           {"n", "1e-9"},
+           {"checkpoint_every", "1e300"},
+           {"sample_every", "1e-300"},
+           {"effects", R"({"shuffle": {"every": 1e18}})"},
+           {"effects", R"({"thermostat": {"rate": 1e300}})"},
+           {"effects", R"({"restitution": {"law": "threshold", "speed": 1e-300}})"},
+           {"effects", R"({"restitution": {"law": "tc", "t_c": 1e200}})"},
+           {"effects", R"({"roughness": {"beta": 0, "q": 1e-300}})"},
+           {"seeds", "2000000"}}) {
+    const std::string key = each.first, value = each.second;
+    CAPTURE(key);
+    CAPTURE(value);
+    CHECK(complaint(with(key, value)).starts_with("g.json: /" + key));
+  }
+  check_complaint(
+      with("tau_max", "1e12"),
+      "g.json: /tau_max: 1000000000000.0 is not accepted; expected a number above 0 and "
+      "at most 1e9 [collisions per particle], or an object from each e to such a number");
+  check_complaint(with("tau_max", "2e8"),
+                  "g.json: /sample_every: 1 makes 2e+08 samples of a run to tau_max = 2e+08; "
+                  "expected at most 10^7, sample_every >= 20");
+}
+
+TEST_CASE("more jobs than a plan can hold are refused before they are made") {
+  CHECK(
+      complaint(R"({"e": [0.7, 0.8, 0.9], "n": 0.4, "N": 100, "seeds": 1000000, "tau_max": 5})") ==
+      "g.json: makes 3e+06 jobs in all; expected at most 2e+06 in one plan");
+  std::string many = "[0.001";
+  for (int k = 2; k <= 1000; ++k) many += "," + std::to_string(k) + "e-3";
+  many += "]";
+  CHECK(complaint(with("effects", R"({"thermostat": {"rate": )" + many +
+                                      R"(}, "roughness": {"q": 0.4, "beta": )" + many + "}}"))
+            .find("/effects: makes 1e+06 combinations of effects; expected at most 10000") !=
+        std::string::npos);
+}
+
+TEST_CASE("a list of 10^5 seeds is read in time that does not grow with its square") {
+  std::string seeds = "[0";
+  for (int k = 1; k < 100'000; ++k) seeds += "," + std::to_string(k);
+  const auto begin = std::chrono::steady_clock::now();
+  CHECK(parse(with("seeds", seeds + "]")).grids[0].seeds.size() == 100'000);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  CHECK(took.count() < 10);  // 0.5 s on one core at 3 GHz; a quadratic one took minutes
+}
+
+TEST_CASE("a mixture is as dense as the volume that it fills") {
+  const auto mixture = [](const std::string& n, const std::string& fraction,
+                          const std::string& diameter) {
+    return complaint(
+        R"({"e": 0.9, "n": )" + n +
+        R"(, "N": 1008, "seeds": 1, "tau_max": 5, "effects": {"mixture": {"fraction": )" +
+        fraction + R"(, "diameter_ratio": )" + diameter + R"(, "mass_ratio": 1}}})");
+  };
+  CHECK(mixture("3", "0.857", "0.4") == "no complaint");   // packing 0.31
+  CHECK(mixture("1.25", "0.9", "0.1") == "no complaint");  // 0.07
+  CHECK(
+      mixture("3", "0.5", "0.9") ==
+      "g.json: /n: 3 is too dense: spheres would fill 1.36 of their box; expected less than close "
+      "packing, pi/sqrt(18) = 0.740, n below 1.64");
+}
+
+TEST_CASE("a gas that cannot be prepared is refused where its N stands") {
+  const auto never = [](const Preparation& gas) {
+    return gas.particles == 100 ? std::optional<std::string>("particles jam; expected 108")
+                                : std::nullopt;
+  };
+  try {
+    parse_grid(with("N", "[108, 100]"), "g.json", machine, never);
+    FAIL("not refused");
+  } catch (const GridError& error) {
+    CHECK(std::string(error.what()) == "g.json: /N/1: 100 particles jam; expected 108");
+  }
+}
+
+TEST_CASE("observables that need a larger box are refused") {
+  const std::string grid = R"({"e": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 90,
+                               "observables": ["temperature", )";
+  check_complaint(grid + "\"structure\"]}",
+                  "g.json: /observables/1: \"structure\" needs a box wider than 8 sigma, which 100 "
+                  "particles at n = 0.4 do not fill; expected N above 205");
+  CHECK(complaint(grid + "\"correlations\"]}") == "no complaint");
+  check_complaint(
+      R"({"d": 2, "e": 0.8, "n": 0.4, "N": 6, "seeds": 1, "tau_max": 90,
+          "observables": ["temperature", "correlations"]})",
+      "g.json: /observables/1: \"correlations\" needs a box wider than 4 sigma, which 6 particles "
+      "at n = 0.4 do not fill; expected N above 6.4");
+}
+
+TEST_CASE("a target without its standard error is refused") {
+  CHECK(
+      complaint(R"({"e": 0.8, "n": 0.4, "N": 1000, "seeds": 5, "tau_max": 90,
+                      "target": {"tau_c": {}}})") ==
+      "g.json: /target/tau_c: has no \"se\"; expected a standard error, a number from 1e-8 to 1e6");
+  CHECK(complaint(R"({"e": 0.8, "n": 0.4, "N": 1000, "seeds": 5, "tau_max": 90,
+                      "target": {"a2": {"tau": [5, 15]}}})") ==
+        "g.json: /target/a2: has no \"se\"; expected a standard error, a number from 1e-8 to 1e6");
+}
