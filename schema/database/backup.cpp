@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "schema/store/store.hpp"
+#include "schema/file/patience.hpp"
 
 namespace haff::schema {
 

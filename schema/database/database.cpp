@@ -11,7 +11,7 @@
 #include "schema/file/header.hpp"
 #include "schema/file/network.hpp"
 #include "schema/file/patience.hpp"
-#include "schema/store/store.hpp"
+#include "schema/rows/measured.hpp"
 
 namespace haff::schema {
 

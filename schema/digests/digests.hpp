@@ -25,7 +25,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/store/store.hpp"
+#include "schema/digests/part.hpp"
 
 namespace haff::schema {
 

@@ -5,8 +5,6 @@
 #include <optional>
 #include <thread>
 
-#include "schema/store/store.hpp"
-
 namespace haff::schema {
 
 namespace {

@@ -3,7 +3,13 @@
 
 #include <sqlite3.h>
 
+#include <chrono>
+
 namespace haff::schema {
+
+// How long a writer waits for others before it gives up. A commit of a large checkpoint to a slow
+// disk takes seconds; several workers may queue.
+inline constexpr std::chrono::milliseconds busy_timeout{120'000};
 
 // Installs SQLite's busy and progress handlers. A lock is waited for as long as busy_timeout and,
 // if it is given, as `may_wait` allows, which is asked some times a second. Two seconds after

@@ -16,7 +16,6 @@
 
 #include "schema/error.hpp"
 #include "schema/file/file_system.hpp"
-#include "schema/store/store.hpp"
 
 namespace haff::schema {
 

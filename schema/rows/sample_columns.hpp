@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "schema/store/store.hpp"
+#include "schema/rows/measured.hpp"
 
 namespace haff::schema {
 

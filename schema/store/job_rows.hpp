@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "schema/database/database.hpp"
-#include "schema/store/store.hpp"
+#include "schema/digests/part.hpp"
 
 namespace haff::schema {
 

@@ -1,12 +1,13 @@
+#include "schema/store/reader.hpp"
+
 #include <algorithm>
 #include <limits>
 
 #include "schema/database/backup.hpp"
 #include "schema/database/database.hpp"
 #include "schema/digests/checksum.hpp"
+#include "schema/store/checked_rows.hpp"
 #include "schema/store/job_rows.hpp"
-#include "schema/store/rows.hpp"
-#include "schema/store/store.hpp"
 
 namespace haff::schema {
 

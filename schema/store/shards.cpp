@@ -12,14 +12,13 @@
 #include <vector>
 
 #include "schema/database/database.hpp"
+#include "schema/store/bind.hpp"
+#include "schema/store/checked_rows.hpp"
 #include "schema/store/job_rows.hpp"
-#include "schema/store/rows.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {
 namespace {
-
-const std::string now = "strftime('%Y-%m-%dT%H:%M:%fZ', 'now')";
 
 // Tables whose rows are written once and never change, and those that hold the newest state of a
 // job. All have a column job_id.

@@ -273,3 +273,30 @@ TEST_CASE("60 jobs of 1000 samples are averaged while one waits") {
   MESSAGE("mean_series of 60 000 samples: " << seconds.count() << " s");
   CHECK(seconds.count() < 10);  // 1.0 s when nothing else runs
 }
+
+TEST_CASE("a gas without e is stored as it is, and averaged") {
+  Store store = Store::in_memory();
+  std::vector<Job> jobs{cooling(0.8, 1), cooling(0.8, 2)};
+  for (Job& job : jobs) {
+    job.e = std::nullopt;
+    job.effects = R"({"restitution":{"A":0.1,"law":"viscoelastic"}})";
+  }
+  store.add(plan(jobs));
+  equilibrate(store);
+  for (const double temperature : {0.5, 0.7}) {
+    const auto claim = store.claim(me, "test");
+    CHECK_FALSE(claim->job.e);
+    complete(store, *claim, {{.tau = 0, .temperature = temperature}}, Results{});
+  }
+  auto rows = store.query(
+      "SELECT mean_series.e, temperature, gamma_ratio, tau_c FROM mean_series JOIN mean_tau_c "
+      "USING (effects)");
+  const auto row = rows.next().value();
+  CHECK(std::holds_alternative<std::monostate>(row[0]));
+  CHECK(std::get<double>(row[1]) == doctest::Approx(0.6));
+  CHECK(std::holds_alternative<std::monostate>(row[2]));
+  CHECK(std::holds_alternative<std::monostate>(row[3]));
+  auto found = store.query(
+      "SELECT count(*) FROM job_effects WHERE effect = 'restitution' AND value = 'viscoelastic'");
+  CHECK(std::get<std::int64_t>(found.next().value()[0]) == 2);
+}

@@ -176,3 +176,32 @@ TEST_CASE("an error with control characters is stored without them") {
   vandal.store.fail({vandal.job_id, 1}, "two\nlines, \x1b[2J, \xff and µ");
   CHECK(vandal.store.job(vandal.job_id).error == "two lines,  [2J,   and µ");
 }
+
+TEST_CASE("jobs are listed by kind, physics and seed, however they were planned") {
+  Store store = Store::in_memory();
+  store.add(plan({cooling(0.9, 2), cooling(0.8, 10), cooling(0.9, 1), cooling(0.8, 9)}));
+  std::vector<std::pair<std::optional<double>, std::uint64_t>> order;
+  for (const JobRow& row : store.jobs()) order.emplace_back(row.job.e, row.job.seed);
+  CHECK(order == std::vector<std::pair<std::optional<double>, std::uint64_t>>{
+                     {1, 1}, {1, 2}, {1, 9}, {1, 10}, {0.8, 9}, {0.8, 10}, {0.9, 1}, {0.9, 2}});
+}
+
+TEST_CASE("a summary counts jobs and time") {
+  Store store = Store::in_memory();
+  auto jobs = plan({cooling(0.8), cooling(0.9)});
+  for (Planned& planned : jobs) planned.expected_cpu_seconds = 100;
+  store.add(jobs);
+  equilibrate(store);
+  const Claim claim = *store.claim(me, "test");
+  store.progress(claim.lease, {.tau = 45, .cpu_seconds = 60});
+  Summary summary = store.summary();
+  CHECK(summary.jobs[Status::done] == 1);
+  CHECK(summary.jobs[Status::running] == 1);
+  CHECK(summary.jobs[Status::pending] == 1);
+  CHECK(summary.jobs[Status::failed] == 0);
+  CHECK(summary.jobs.size() == statuses.size());
+  CHECK(summary.claimable == 1);
+  CHECK(summary.cpu_seconds == 60);
+  CHECK(summary.expected_cpu_seconds == 300);
+  CHECK(summary.remaining_cpu_seconds == 150);
+}

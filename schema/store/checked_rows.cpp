@@ -1,4 +1,4 @@
-#include "schema/store/rows.hpp"
+#include "schema/store/checked_rows.hpp"
 
 #include <cstring>
 #include <exception>

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "schema/rows/column.hpp"
-#include "schema/store/store.hpp"
+#include "schema/store/reader.hpp"
 
 namespace haff::schema {
 

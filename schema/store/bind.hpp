@@ -1,0 +1,22 @@
+// What the statements of this folder share. Private to schema/.
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <optional>
+#include <string>
+
+namespace haff::schema {
+
+// SQL: this moment in UTC, ISO 8601.
+inline const std::string now = "strftime('%Y-%m-%dT%H:%M:%fZ', 'now')";
+
+// NULL if there is no value.
+inline void bind(SQLite::Statement& statement, const char* name, std::optional<double> value) {
+  if (value)
+    statement.bind(name, *value);
+  else
+    statement.bind(name);
+}
+
+}  // namespace haff::schema

@@ -1,0 +1,144 @@
+// Who works on a job: claimed, given back, failed, reopened.
+#include <limits>
+
+#include "schema/database/database.hpp"
+#include "schema/store/bind.hpp"
+#include "schema/store/checked_rows.hpp"
+#include "schema/store/lease.hpp"
+#include "schema/store/store.hpp"
+
+namespace haff::schema {
+
+namespace {
+
+std::vector<std::int64_t> ids(SQLite::Database& sqlite, const char* sql) {
+  SQLite::Statement statement(sqlite, sql);
+  std::vector<std::int64_t> found;
+  while (statement.executeStep()) found.push_back(statement.getColumn(0).getInt64());
+  return found;
+}
+
+}  // namespace
+
+std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_version,
+                                  const std::optional<Fit>& fit) {
+  return database().transaction([&]() -> std::optional<Claim> {
+    SQLite::Statement next(database().sqlite(), "SELECT jobs.job_id " +
+                                                    std::string(from_claimable_jobs) + "AND " +
+                                                    seconds_to_next_tau + R"( <= :seconds
+        ORDER BY jobs.kind = 'equilibration' DESC,
+                 coalesce(jobs.expected_cpu_seconds, 0) * (1 - jobs.tau / jobs.tau_max) DESC,
+                 jobs.particles * (jobs.tau_max - jobs.tau) DESC,
+                 jobs.job_id
+        LIMIT 1)");
+    next.bind(":seconds", fit ? fit->seconds : std::numeric_limits<double>::max());
+    next.bind(":tau", fit ? fit->tau : 0);
+    std::int64_t job_id = 0;
+    do {
+      next.reset();
+      if (!next.executeStep()) return std::nullopt;
+      job_id = next.getColumn(0).getInt64();
+      next.reset();
+    } while (!is_as_written(database(), job_id));
+
+    SQLite::Statement statement(database().sqlite(), R"(
+      UPDATE jobs SET status = 'running', lease = lease + 1, host = :host,
+                      owner_boot_id = :boot_id, owner_pid = :pid, owner_started = :started,
+                      code_version = :code_version, renewed = )" +
+                                                         now + R"(,
+                      started = coalesce(started, )" + now +
+                                                         R"()
+      WHERE job_id = :job_id
+      RETURNING *)");
+    statement.bind(":host", owner.host);
+    statement.bind(":boot_id", owner.boot_id);
+    statement.bind(":pid", owner.pid);
+    statement.bind(":started", owner.started);
+    statement.bind(":code_version", code_version);
+    statement.bind(":job_id", job_id);
+    statement.executeStep();
+    const JobRow row = job_row(statement);
+    return Claim{.lease = {row.job_id, integer(statement, "lease")},
+                 .job = row.job,
+                 .tau_max = row.tau_max,
+                 .checkpoint_every = row.checkpoint_every,
+                 .equilibration_id = row.equilibration_id,
+                 .attempts = row.attempts,
+                 .cpu_seconds = row.progress.cpu_seconds,
+                 .starts_over = row.starts_over};
+  });
+}
+
+void Store::progress(const Lease& lease, const Progress& progress) {
+  database().transaction([&] {
+    must_hold(database(), lease);
+    note_progress(database().sqlite(), lease, progress);
+  });
+}
+
+Status Store::fail(const Lease& lease, const std::string& error, bool again) {
+  return database().transaction([&] {
+    if (!is_held(database(), lease)) return Status::failed;
+    SQLite::Statement statement(database().sqlite(), R"(
+      UPDATE jobs SET attempts = attempts + 1, error = :error WHERE job_id = :job_id
+      RETURNING attempts)");
+    statement.bind(":error", printable(error));
+    statement.bind(":job_id", lease.job_id);
+    statement.executeStep();
+    const bool last = !again || integer(statement, "attempts") >= max_attempts;
+    const Status status = last ? Status::failed : Status::pending;
+    leave(database().sqlite(), lease, status);
+    return status;
+  });
+}
+
+void Store::release(const Lease& lease) {
+  database().transaction([&] {
+    if (is_held(database(), lease)) leave(database().sqlite(), lease, Status::pending);
+  });
+}
+
+bool Store::reclaim(const Lease& lease) {
+  return database().transaction([&] {
+    const bool held = holds(database().sqlite(), lease);
+    if (held && is_as_written(database(), lease.job_id))
+      leave(database().sqlite(), lease, Status::pending);
+    return held;
+  });
+}
+
+std::int64_t Store::retry_failed() {
+  return database().transaction([&] {
+    SQLite::Statement statement(database().sqlite(), R"(
+      UPDATE jobs SET status = 'pending', attempts = 0, finished = NULL WHERE job_id = ?)");
+    std::int64_t reopened = 0;
+    for (const std::int64_t job_id :
+         ids(database().sqlite(), "SELECT job_id FROM jobs WHERE status = 'failed'")) {
+      if (!is_as_written(database(), job_id)) continue;
+      statement.reset();
+      statement.bind(1, job_id);
+      reopened += statement.exec();
+    }
+    return reopened;
+  });
+}
+
+bool Store::restart(std::int64_t job_id) {
+  return database().transaction([&] {
+    database().digests().must_match(job_id, Part::jobs);
+    const auto change = [&](const char* sql) {
+      SQLite::Statement statement(database().sqlite(), sql);
+      statement.bind(1, job_id);
+      return statement.exec();
+    };
+    if (change(R"(
+          UPDATE jobs SET status = 'pending', attempts = 0, error = NULL, tau = 0, collisions = 0,
+                          finished = NULL, starts_over = 1, physics_version = NULL
+          WHERE job_id = ? AND status NOT IN ('running', 'lent'))") == 0)
+      return false;
+    change("DELETE FROM invariants WHERE job_id = ?");
+    return true;
+  });
+}
+
+}  // namespace haff::schema

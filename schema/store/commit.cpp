@@ -1,0 +1,283 @@
+// What a worker commits: rows, a state, results, and with them the end of its job.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+
+#include "schema/database/database.hpp"
+#include "schema/digests/checksum.hpp"
+#include "schema/rows/sample_columns.hpp"
+#include "schema/store/bind.hpp"
+#include "schema/store/checked_rows.hpp"
+#include "schema/store/contradiction.hpp"
+#include "schema/store/lease.hpp"
+#include "schema/store/store.hpp"
+
+namespace haff::schema {
+
+namespace {
+
+void must_be_finite(const Lease& lease, const Sample& sample) {
+  bool sound = std::isfinite(sample.tau) && std::isfinite(sample.time);
+  for (const SampleColumn& column : sample_columns)
+    sound = sound && std::isfinite((sample.*column.value).value_or(0));
+  if (!sound)
+    throw Damage("job " + std::to_string(lease.job_id) + ": the sample at tau = " +
+                 std::to_string(sample.tau) + " holds a value that is not finite");
+}
+
+// A sample that is there already is kept. What the trajectory alone decides must have come out
+// the same; gamma_ratio may differ in its last digits between two machines' logarithms.
+void must_agree(SQLite::Database& sqlite, const Lease& lease, const Sample& again) {
+  SQLite::Statement statement(sqlite, "SELECT * FROM samples WHERE job_id = ? AND tau = ?");
+  statement.bind(1, lease.job_id);
+  statement.bind(2, again.tau);
+  statement.executeStep();
+  const Sample stored = sample(statement);
+  if (stored.time != again.time || stored.temperature != again.temperature)
+    throw Damage("job " + std::to_string(lease.job_id) +
+                 ": the sample at tau = " + std::to_string(again.tau) + " " + came_out_different +
+                 "; one of the two computations was disturbed, or the program that made the first "
+                 "has changed");
+}
+
+void insert(Database& database, const Lease& lease, const std::vector<Sample>& samples) {
+  if (samples.empty()) return;
+  const DigestedTable& table = database.digests().table(Part::samples);
+  std::string names = "job_id, tau, time", places = "?, ?, ?";
+  for (const SampleColumn& column : sample_columns) {
+    names += std::string(", ") + column.name;
+    places += ", ?";
+  }
+  SQLite::Statement statement(database.sqlite(),
+                              "INSERT INTO samples (" + names + ") VALUES (" + places +
+                                  ") ON CONFLICT DO NOTHING RETURNING " + table.columns());
+  for (const Sample& sample : samples) {
+    must_be_finite(lease, sample);
+    statement.reset();
+    statement.clearBindings();
+    statement.bind(1, lease.job_id);
+    statement.bind(2, sample.tau);
+    statement.bind(3, sample.time);
+    int place = 4;
+    for (const SampleColumn& column : sample_columns) {
+      if (const auto& value = sample.*column.value) statement.bind(place, *value);
+      ++place;
+    }
+    if (statement.executeStep())
+      database.digests().added(lease.job_id, Part::samples, table.digest(statement));
+    else
+      must_agree(database.sqlite(), lease, sample);
+  }
+}
+
+// Profiles that are there already are kept: the samples beside them say whether the gas is the
+// same, and the last digits of a transform may differ between two libraries.
+void insert(Database& database, const Lease& lease, const std::vector<Profile>& profiles) {
+  if (profiles.empty()) return;
+  const DigestedTable& table = database.digests().table(Part::profiles);
+  SQLite::Statement statement(
+      database.sqlite(),
+      "INSERT INTO profiles (job_id, name, tau, x, value) VALUES (?, ?, ?, ?, ?) "
+      "ON CONFLICT DO NOTHING RETURNING " +
+          table.columns());
+  for (const Profile& profile : profiles) {
+    if (profile.x.size() != profile.value.size())
+      throw std::logic_error("the profile " + profile.name + " has not as many values as places");
+    for (std::size_t i = 0; i < profile.x.size(); ++i) {
+      if (!std::isfinite(profile.value[i]))
+        throw Damage("job " + std::to_string(lease.job_id) + ": the profile " + profile.name +
+                     " at tau = " + std::to_string(profile.tau) +
+                     " holds a value that is not finite");
+      statement.reset();
+      statement.bind(1, lease.job_id);
+      statement.bind(2, profile.name);
+      statement.bind(3, profile.tau);
+      statement.bind(4, profile.x[i]);
+      statement.bind(5, profile.value[i]);
+      if (statement.executeStep())
+        database.digests().added(lease.job_id, Part::profiles, table.digest(statement));
+    }
+  }
+}
+
+void insert(Database& database, const Lease& lease, const std::vector<Field>& fields) {
+  static_assert(std::endian::native == std::endian::little, "the store holds little-endian reals");
+  if (fields.empty()) return;
+  const DigestedTable& table = database.digests().table(Part::fields);
+  SQLite::Statement statement(
+      database.sqlite(),
+      "INSERT INTO fields (job_id, name, tau, cells, components, box, data) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING RETURNING " +
+          table.columns());
+  for (const Field& field : fields) {
+    statement.reset();
+    statement.bind(1, lease.job_id);
+    statement.bind(2, field.name);
+    statement.bind(3, field.tau);
+    statement.bind(4, field.cells);
+    statement.bind(5, field.components);
+    statement.bind(6, field.box);
+    statement.bindNoCopy(7, field.values.data(),
+                         static_cast<int>(field.values.size() * sizeof(double)));
+    if (statement.executeStep())
+      database.digests().added(lease.job_id, Part::fields, table.digest(statement));
+  }
+}
+
+void replace(SQLite::Database& sqlite, const Lease& lease, const Checkpoint& checkpoint,
+             std::uint64_t sum) {
+  SQLite::Statement drop(sqlite, "DELETE FROM checkpoint_chunks WHERE job_id = ?");
+  drop.bind(1, lease.job_id);
+  drop.exec();
+
+  SQLite::Statement header(
+      sqlite,
+      "INSERT OR REPLACE INTO checkpoints (job_id, tau, collisions, bytes, checksum, created) "
+      "VALUES (?, ?, ?, ?, ?, " +
+          now + ")");
+  header.bind(1, lease.job_id);
+  header.bind(2, checkpoint.tau);
+  header.bind(3, checkpoint.collisions);
+  header.bind(4, static_cast<std::int64_t>(checkpoint.state.size()));
+  header.bind(5, static_cast<std::int64_t>(sum));
+  header.exec();
+
+  SQLite::Statement insert(
+      sqlite, "INSERT INTO checkpoint_chunks (job_id, position, bytes) VALUES (?, ?, ?)");
+  const std::span<const std::byte> state(checkpoint.state);
+  for (std::size_t begin = 0; begin < state.size(); begin += chunk_bytes) {
+    const auto chunk = state.subspan(begin, std::min(chunk_bytes, state.size() - begin));
+    insert.reset();
+    insert.bind(1, lease.job_id);
+    insert.bind(2, static_cast<std::int64_t>(begin / chunk_bytes));
+    insert.bindNoCopy(3, chunk.data(), static_cast<int>(chunk.size()));
+    insert.exec();
+  }
+
+  SQLite::Statement progress(sqlite,
+                             "UPDATE jobs SET attempts = 0, starts_over = 0 WHERE job_id = ?");
+  progress.bind(1, lease.job_id);
+  progress.exec();
+}
+
+void replace(SQLite::Database& sqlite, const Lease& lease, const Invariants& invariants) {
+  SQLite::Statement statement(sqlite, R"(
+    INSERT OR REPLACE INTO invariants
+      (job_id, largest_overlap, past_events, unresolved_collisions, energy_mismatch,
+       momentum_removed)
+    VALUES (:job_id, :largest_overlap, :past_events, :unresolved_collisions, :energy_mismatch,
+            :momentum_removed))");
+  statement.bind(":job_id", lease.job_id);
+  statement.bind(":largest_overlap", invariants.largest_overlap);
+  statement.bind(":past_events", invariants.past_events);
+  statement.bind(":unresolved_collisions", invariants.unresolved_collisions);
+  statement.bind(":energy_mismatch", invariants.energy_mismatch);
+  statement.bind(":momentum_removed", invariants.momentum_removed);
+  statement.exec();
+}
+
+void note_physics(SQLite::Database& sqlite, const Lease& lease, int physics_version) {
+  SQLite::Statement statement(sqlite, "UPDATE jobs SET physics_version = ? WHERE job_id = ?");
+  statement.bind(1, physics_version);
+  statement.bind(2, lease.job_id);
+  statement.exec();
+}
+
+// A commit, with its checksum already computed, so that no process waits for the write lock
+// meanwhile.
+class Entry {
+ public:
+  Entry(const Lease& lease, const Commit& commit) : lease_(lease), commit_(commit) {
+    if (commit.checkpoint) sum_ = checksum(commit.checkpoint->state);
+  }
+
+  void write(Database& database) const {
+    must_hold(database, lease_);
+    insert(database, lease_, commit_.samples);
+    insert(database, lease_, commit_.profiles);
+    insert(database, lease_, commit_.fields);
+    if (commit_.checkpoint) replace(database.sqlite(), lease_, *commit_.checkpoint, sum_);
+    if (commit_.invariants) replace(database.sqlite(), lease_, *commit_.invariants);
+    if (commit_.physics_version) note_physics(database.sqlite(), lease_, *commit_.physics_version);
+    note_progress(database.sqlite(), lease_, commit_.progress);
+  }
+
+ private:
+  const Lease& lease_;
+  const Commit& commit_;
+  std::uint64_t sum_ = 0;
+};
+
+void replace(SQLite::Database& sqlite, const Lease& lease, const Results& results) {
+  SQLite::Statement statement(sqlite,
+                              "INSERT OR REPLACE INTO results (job_id, tau_c, time_c) "
+                              "VALUES (:job_id, :tau_c, :time_c)");
+  statement.bind(":job_id", lease.job_id);
+  bind(statement, ":tau_c", results.tau_c);
+  bind(statement, ":time_c", results.time_c);
+  statement.exec();
+}
+
+// A job that has come to its end from its start, without a new state on the way: the damaged one
+// has served its time.
+void drop_unused_state(SQLite::Database& sqlite, const Lease& lease) {
+  for (const char* sql : {"DELETE FROM checkpoint_chunks WHERE job_id IN "
+                          "(SELECT job_id FROM jobs WHERE job_id = ? AND starts_over)",
+                          "DELETE FROM checkpoints WHERE job_id IN "
+                          "(SELECT job_id FROM jobs WHERE job_id = ? AND starts_over)",
+                          "UPDATE jobs SET starts_over = 0 WHERE job_id = ?"}) {
+    SQLite::Statement statement(sqlite, sql);
+    statement.bind(1, lease.job_id);
+    statement.exec();
+  }
+}
+
+}  // namespace
+
+void Store::commit(const Lease& lease, const Commit& commit) {
+  const Entry entry(lease, commit);
+  database().transaction([&] { entry.write(database()); });
+}
+
+Status Store::finish(const Lease& lease, const Commit& commit,
+                     const std::optional<Results>& results, double tau_max) {
+  const Entry entry(lease, commit);
+  return database().transaction([&] {
+    SQLite::Database& sqlite = database().sqlite();
+    entry.write(database());
+    if (results) replace(sqlite, lease, *results);
+
+    SQLite::Statement row(sqlite, "SELECT tau_max FROM jobs WHERE job_id = ?");
+    row.bind(1, lease.job_id);
+    row.executeStep();
+    const bool extended = real(row, "tau_max") > tau_max;
+    const Status status = extended ? Status::pending : Status::done;
+    drop_unused_state(sqlite, lease);
+    leave(sqlite, lease, status);
+    if (!extended) note_progress(sqlite, lease, commit.progress);
+
+    SQLite::Statement clear(sqlite, "UPDATE jobs SET error = NULL, attempts = 0 WHERE job_id = ?");
+    clear.bind(1, lease.job_id);
+    clear.exec();
+    return status;
+  });
+}
+
+void Store::collapse(const Lease& lease, const Commit& commit, const std::string& what) {
+  const Entry entry(lease, commit);
+  database().transaction([&] {
+    SQLite::Database& sqlite = database().sqlite();
+    entry.write(database());
+    SQLite::Statement statement(sqlite, "UPDATE jobs SET error = ? WHERE job_id = ?");
+    statement.bind(1, printable(what));
+    statement.bind(2, lease.job_id);
+    statement.exec();
+    drop_unused_state(sqlite, lease);
+    leave(sqlite, lease, Status::collapsed);
+    note_progress(sqlite, lease, commit.progress);
+  });
+}
+
+}  // namespace haff::schema

@@ -1,0 +1,60 @@
+// Rows that are not as they were written: put right, dropped, digested again.
+#include <set>
+
+#include "schema/database/database.hpp"
+#include "schema/store/job_rows.hpp"
+#include "schema/store/store.hpp"
+
+namespace haff::schema {
+
+std::int64_t Store::replace_rows(std::int64_t job_id, Part part, const Reader& other,
+                                 std::int64_t job_there) {
+  return database().transaction([&] {
+    const RowsOfJob ours{database(), job_id}, theirs{other.database(), job_there};
+    std::set<std::string> rows;
+    for (const Difference& difference : schema::differences(ours, theirs, part))
+      if (!difference.is_in_last_digits) rows.insert(difference.row);
+    const bool is_state = part == Part::checkpoints;
+    if (is_state) drop_rows(ours, "checkpoint_chunks");
+    drop_differing_rows(ours, theirs, part);
+    add_rows(ours, theirs, name(part));
+    if (is_state) add_rows(ours, theirs, "checkpoint_chunks");
+    database().digests().changed(job_id, part);
+    return static_cast<std::int64_t>(rows.size());
+  });
+}
+
+void Store::digest_again(std::int64_t job_id, Part part) {
+  database().transaction([&] {
+    SQLite::Statement make(database().sqlite(),
+                           "INSERT OR IGNORE INTO digests (job_id) VALUES (?)");
+    make.bind(1, job_id);
+    make.exec();
+    database().digests().changed(job_id, part);
+  });
+}
+
+void Store::digest_table_again(const std::string& table) {
+  database().transaction([&] { database().digests().changed_table(table); });
+}
+
+std::int64_t Store::drop_rows_after(std::int64_t job_id, double tau) {
+  return database().transaction([&] {
+    const auto drop = [&](Part part) {
+      SQLite::Statement statement(database().sqlite(), std::string("DELETE FROM ") + name(part) +
+                                                           " WHERE job_id = ? AND tau > ?");
+      statement.bind(1, job_id);
+      statement.bind(2, tau);
+      const std::int64_t dropped = statement.exec();
+      database().digests().changed(job_id, part);
+      return dropped;
+    };
+    const std::int64_t samples = drop(Part::samples);
+    drop(Part::profiles);
+    drop(Part::fields);
+    drop_rows({database(), job_id}, name(Part::results));
+    return samples;
+  });
+}
+
+}  // namespace haff::schema
