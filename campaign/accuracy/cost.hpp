@@ -7,35 +7,19 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <ostream>
-#include <string>
 #include <vector>
 
-#include "campaign/accuracy/quantity.hpp"
+#include "campaign/accuracy/cost_target.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::campaign {
-
-// An error that is wanted: of one quantity, or of all that the table has of a measure.
-struct CostTarget {
-  Measure measure = Measure::a2;
-  std::optional<Quantity> quantity = {};
-  double error = 0;
-
-  bool operator==(const CostTarget&) const = default;
-};
 
 struct CostRequest {
   std::filesystem::path out = "cost";    // made if it is not there
   std::vector<CostTarget> targets = {};  // else today's error, and a tenth of it
   bool json = false;                     // report the rows of cost.csv as JSON instead of tables
 };
-
-// "a2=5e-4", or with a window of tau as a grid's target has one, "a2@3:8=5e-4"; at one tau
-// "gamma_ratio@20=1e-3" (2 to either side), "ln_temperature@50=0.01", "G_parallel@50=1e-5". Nothing
-// if it names no quantity, a window that the quantity cannot have, or no error above 0.
-std::optional<CostTarget> target_from_text(const std::string& text);
 
 // Returns an exit code: 0, or 1 if no cooling run is done yet (the report says what to plan) or a
 // picture could not be drawn (the table and the CSV file are there, the report says what is missing

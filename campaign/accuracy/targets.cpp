@@ -10,17 +10,10 @@
 
 #include "analysis/statistics/accuracy.hpp"
 #include "campaign/accuracy/quantity.hpp"
-#include "campaign/base/text/duration.hpp"
-#include "campaign/base/text/job_text.hpp"
-#include "campaign/base/text/number_text.hpp"
-#include "campaign/base/text/text_table.hpp"
-#include "campaign/planning/forecast.hpp"
 #include "campaign/results/finished_runs.hpp"
 
 namespace haff::campaign {
 namespace {
-
-using analysis::Estimate;
 
 // The jobs of one series.
 struct Runs {
@@ -126,33 +119,6 @@ void judge(TargetProgress& progress, const Runs& runs, const FinishedSeries& ser
   if (progress.verdict == Verdict::met) progress.cpu_seconds = 0;
 }
 
-std::string verdict_text(const TargetProgress& progress) {
-  const std::string text = name(progress.verdict);
-  return progress.reason.empty() ? text : text + ": " + progress.reason;
-}
-
-// How many realizations there will be is not known before the pilot runs are done.
-std::string to_come_text(const TargetProgress& progress) {
-  const double seconds = progress.cpu_seconds_to_come();
-  if (seconds <= 0) return no_value;
-  return progress.expected > 0 ? duration_text(seconds) : "> " + duration_text(seconds);
-}
-
-// A realization and, unless it is there, its equilibration.
-std::vector<schema::Planned> realization(const schema::JobRow& like, std::uint64_t seed,
-                                         const schema::Reader& store, Forecast& forecast) {
-  schema::Job job = like.job;
-  job.seed = seed;
-  std::vector<schema::Planned> plan{
-      {.job = schema::equilibration_of(job),
-       .tau_max = job.equilibrate,
-       .checkpoint_every = like.checkpoint_every},
-      {.job = job, .tau_max = like.tau_max, .checkpoint_every = like.checkpoint_every}};
-  if (store.find(plan.front().job)) plan.erase(plan.begin());
-  for (schema::Planned& each : plan) each.expected_cpu_seconds = forecast.cpu_seconds(each);
-  return plan;
-}
-
 }  // namespace
 
 std::string name(Verdict verdict) {
@@ -236,67 +202,6 @@ double cpu_seconds_unplanned(const std::vector<TargetProgress>& targets) {
   double sum = 0;
   for (const auto& [series, seconds] : by_series) sum += seconds;
   return sum;
-}
-
-std::string targets_table(const std::vector<TargetProgress>& targets) {
-  if (targets.empty()) return "";
-  TextTable table({{"target", Align::left},
-                   {"e"},
-                   {"n"},
-                   {"N"},
-                   {"wanted"},
-                   {"mean"},
-                   {"error"},
-                   {"95 % interval"},
-                   {"runs"},
-                   {"expected"},
-                   {"CPU time to come"},
-                   {"", Align::left}});
-  for (const TargetProgress& each : targets) {
-    const Estimate& estimate = each.estimate;
-    table.add({describe(quantity_of(each.target)), e_text(each.job), number_text(each.job.n),
-               count_text(each.job.particles), fmt::format("{:.1e}", each.target.se),
-               estimate.count > 0 ? value_text(estimate.mean, estimate.standard_error) : no_value,
-               estimate.count > 1 ? fmt::format("{:.1e}", estimate.standard_error) : no_value,
-               each.half_interval ? fmt::format("± {:.1e}", *each.half_interval) : no_value,
-               count_text(static_cast<long long>(estimate.count)),
-               each.expected > 0 ? count_text(static_cast<long long>(each.expected)) : no_value,
-               to_come_text(each), verdict_text(each)});
-  }
-  return table.text();
-}
-
-int add_realizations(schema::Store& store, std::optional<double> affordable) {
-  // Targets of one series are served by the same realizations.
-  std::map<std::string, std::size_t> missing;
-  for (const TargetProgress& each : progress_of(store, store.targets()))
-    if (each.verdict == Verdict::short_of) {
-      std::size_t& most = missing[each.target.series];
-      most = std::max(most, each.next - each.estimate.count);
-    }
-  if (missing.empty()) return 0;
-
-  const auto runs = runs_by_series(store);
-  Forecast forecast(store.jobs());
-  int added = 0;
-  for (const auto& [series, count] : missing) {
-    const auto& rows = runs.at(series).rows;
-    std::set<std::uint64_t> taken;
-    for (const schema::JobRow& row : rows) taken.insert(row.job.seed);
-    std::uint64_t seed = 1;
-    for (std::size_t k = 0; k < count; ++k) {
-      while (taken.contains(seed)) ++seed;
-      taken.insert(seed);
-      const auto plan = realization(rows.front(), seed, store, forecast);
-      if (affordable) {
-        for (const schema::Planned& each : plan) *affordable -= *each.expected_cpu_seconds;
-        if (*affordable < 0) return added;
-      }
-      store.add(plan);
-      ++added;
-    }
-  }
-  return added;
 }
 
 }  // namespace haff::campaign

@@ -1,4 +1,4 @@
-// Targets: how far the standard errors asked for are, and the seeds that bring them there.
+// Targets: how far the standard errors asked for are.
 #pragma once
 
 #include <cstddef>
@@ -54,12 +54,5 @@ void keep_predictions(schema::Store& store);
 
 // CPU time of all realizations not yet planned. Those of one series serve all its targets.
 double cpu_seconds_unplanned(const std::vector<TargetProgress>& targets);
-
-// For people. Empty if there are none.
-std::string targets_table(const std::vector<TargetProgress>& targets);
-
-// Plans what the targets need next, as far as `affordable` CPU seconds go. Returns how many cooling
-// jobs were added.
-int add_realizations(schema::Store& store, std::optional<double> affordable);
 
 }  // namespace haff::campaign

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "campaign/accuracy/more_realizations.hpp"
 #include "campaign/accuracy/targets.hpp"
 #include "campaign/base/output/output.hpp"
 #include "campaign/base/process/exit_code.hpp"

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/accuracy/more_realizations.hpp"
 #include "campaign/accuracy/targets.hpp"
 #include "campaign/base/output/output.hpp"
 #include "campaign/base/process/cpu_time.hpp"

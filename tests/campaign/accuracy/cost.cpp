@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "campaign/accuracy/assessment.hpp"
+#include "campaign/accuracy/cost_target.hpp"
 #include "support/synthetic_store.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,0 +1,32 @@
+// The cheapest way to a smaller error of each quantity of each gas.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/accuracy/assessment.hpp"
+#include "campaign/accuracy/cost_target.hpp"
+#include "campaign/planning/forecast.hpp"
+
+namespace haff::campaign {
+
+struct Advice {
+  Quantity quantity;
+  std::string gas;
+  schema::Job job;
+  double target = 0;
+  std::optional<Offer> offer = {};
+  double memory_bytes = 0;  // of the offer
+  std::vector<std::string> notes = {};
+};
+
+// Of each gas and quantity one a target, in the order of the statistics. Without targets the errors
+// of today are taken, and a tenth of them.
+std::vector<Advice> advice(const Assessment& assessment, const std::vector<CostTarget>& targets,
+                           Forecast& forecast);
+
+// The quantities that targets ask for and that are not among the usual ones.
+std::vector<Quantity> asked_by(const std::vector<CostTarget>& targets);
+
+}  // namespace haff::campaign

@@ -1,0 +1,19 @@
+// What accuracy costs, for people: tables, and what is missing to know more.
+#pragma once
+
+#include <ostream>
+#include <vector>
+
+#include "campaign/accuracy/assessment.hpp"
+#include "campaign/accuracy/cost_advice.hpp"
+#include "campaign/accuracy/cost_target.hpp"
+#include "campaign/results/finished_runs.hpp"
+#include "schema/store/reader.hpp"
+
+namespace haff::campaign {
+
+void print_cost_tables(const schema::Reader& store, const std::vector<CostTarget>& targets,
+                       const std::vector<FinishedSeries>& finished, const Assessment& assessment,
+                       const std::vector<Advice>& advised, std::ostream& report);
+
+}  // namespace haff::campaign
