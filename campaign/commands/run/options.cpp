@@ -1,0 +1,143 @@
+// The options of plan, run, status, explain, and the worker that run starts.
+#include "campaign/commands/options.hpp"
+
+#include <algorithm>
+
+#include "campaign/base/process/machine.hpp"
+#include "campaign/base/text/duration.hpp"
+
+namespace haff::campaign {
+
+namespace {
+
+constexpr double default_watch_every = 2;  // [s]
+constexpr double least_watch_every = 0.1;  // [s]
+
+}  // namespace
+
+CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
+  auto* command = app.add_subcommand("plan", "Make jobs out of a grid of (e, n, N, seed)");
+  command->add_option("GRID", options.grid, "The grid, a JSON file")->type_name("FILE")->required();
+  command->add_flag("--dry-run", options.dry_run, "Show what would be added; write nothing");
+  command->footer(examples(R"(  campaign plan grid.json
+  campaign plan grid.json --dry-run
+  campaign plan grid.json --store /data/dense.db
+
+A grid, with its defaults from "sample_every" on:
+  { "e": [0.80, 0.90], "n": 0.4, "N": 32000, "seeds": 2,
+    "tau_max": {"0.80": 90, "0.90": 180},
+    "sample_every": 1, "equilibrate": 50, "checkpoint_every": 10,
+    "observables": ["temperature", "laguerre"] }
+
+A standard error instead of a number of seeds; those given are pilot runs, `run` adds to them:
+  { "e": 0.9, "n": 0.4, "N": 8000, "seeds": 5, "tau_max": 15,
+    "target": {"a2": {"tau": [5, 15], "se": 1e-3}} })"));
+  return command;
+}
+
+CLI::App* add_run(CLI::App& app, RunOptions& options) {
+  options.workers = processors();
+  auto* command = app.add_subcommand("run", "Run all that is pending, equilibrations first");
+  const auto* workers =
+      command
+          ->add_option("--workers", options.workers,
+                       "Worker processes, one job each at a time; by default one for every "
+                       "--threads processors")
+          ->check(CLI::Range(1, most_workers))
+          ->type_name("K")
+          ->capture_default_str();
+  command
+      ->add_option("--threads", options.threads,
+                   "Threads of each worker; every number gives the same rows. Two make a gas of "
+                   "500000 particles or more 1.5 times as fast; seeds side by side gain more")
+      ->check(CLI::Range(1, most_threads))
+      ->type_name("T")
+      ->capture_default_str();
+  command->callback([&options, workers] {
+    if (workers->count() == 0) options.workers = std::max(1, processors() / options.threads);
+  });
+  const auto set_max_time = [&options](const std::string& text) {
+    options.max_seconds = seconds_from_text(text);
+    if (!options.max_seconds)
+      throw CLI::ValidationError("--max-time",
+                                 "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
+  };
+  command
+      ->add_option_function<std::string>("--max-time", set_max_time,
+                                         "Stop after this time: 90s, 45m, 1h30m; take no job of "
+                                         "which nothing could be stored by then")
+      ->type_name("TIME");
+  const auto set_budget = [&options](const std::string& text) {
+    options.cpu_budget = seconds_from_text(text);
+    if (!options.cpu_budget)
+      throw CLI::ValidationError("--budget",
+                                 "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
+  };
+  command
+      ->add_option_function<std::string>("--budget", set_budget,
+                                         "Spend at most this CPU time, all workers together")
+      ->type_name("TIME");
+  command
+      ->add_option("--log-json", options.log_json,
+                   "Append what happens to this file, a line of JSON an event")
+      ->type_name("FILE");
+  command
+      ->add_option("--on-finish", options.on_finish,
+                   "Give this command to the shell when the run ends, however it ends")
+      ->type_name("COMMAND");
+  command->footer(examples(R"(  campaign run
+  campaign run --workers 4
+  campaign run --max-time 1h30m     exit code 3 if work is left
+  campaign run --budget 2h          of CPU time; targets not met by then: exit code 3
+  campaign run 2> run.log &         plain lines of progress in run.log
+  campaign run --log-json run.jsonl --on-finish 'mail -s "exit $CAMPAIGN_EXIT_CODE" me < /dev/null'
+
+The command of --on-finish finds CAMPAIGN_EXIT_CODE, CAMPAIGN_DONE, CAMPAIGN_FAILED and
+CAMPAIGN_PENDING (jobs of the whole store) and CAMPAIGN_STORE in its environment. The run's exit code
+stays its own.
+Ctrl-C stores what can be stored and leaves; the same command goes on.)"));
+  return command;
+}
+
+CLI::App* add_status(CLI::App& app, StatusOptions& options) {
+  auto* command = app.add_subcommand("status", "Jobs, progress, tau_c so far, failures");
+  const auto set_watch = [&options](const std::string& text) {
+    options.watch_every = text.empty() ? default_watch_every : seconds_from_text(text).value_or(0);
+    if (!(*options.watch_every >= least_watch_every))
+      throw CLI::ValidationError(
+          "--watch", "'" + text + "' is no duration of 0.1 s or more; expected e.g. 5s or 1m");
+  };
+  command
+      ->add_option_function<std::string>("--watch", set_watch,
+                                         "Again every so often, 2 s if no time is given, until "
+                                         "Ctrl-C")
+      ->expected(0, 1)
+      ->type_name("[TIME]");
+  command->footer(examples(R"(  campaign status
+  campaign status --json | jq .fraction_done
+  campaign status --watch           while a run is on
+  campaign status --watch 1m --json >> status.jsonl   a line a minute)"));
+  return command;
+}
+
+CLI::App* add_explain(CLI::App& app, ExplainCommand& options) {
+  auto* command = app.add_subcommand(
+      "explain", "Why a job is where it is: what it waits for, what was tried, what comes next");
+  command->add_option("JOB", options.job_id, "The job_id, as in the table jobs")
+      ->type_name("NUMBER")
+      ->required();
+  command->footer(examples(R"(  campaign explain 7
+  campaign explain 7 --json
+  campaign query "SELECT job_id, kind, e, n, particles, seed, status FROM jobs")"));
+  return command;
+}
+
+CLI::App* add_worker(CLI::App& app, WorkerCommand& options) {
+  auto* command = app.add_subcommand("worker", "")->group("");  // not shown
+  command->add_option("DESCRIPTOR", options.report_descriptor)->required();
+  command->add_option("--until", options.until);
+  command->add_option("--threads", options.threads)->check(CLI::Range(1, most_threads));
+  return command;
+}
+
+}  // namespace haff::campaign

@@ -1,0 +1,65 @@
+// The options of verify, retry, backup, upgrade.
+#include "campaign/commands/options.hpp"
+
+#include "campaign/commands/store/recompute.hpp"
+
+namespace haff::campaign {
+
+CLI::App* add_verify(CLI::App& app, VerifyOptions& options) {
+  auto* command = app.add_subcommand(
+      "verify", "Check the store: SQLite, digests of rows, checkpoints, physics, completeness");
+  auto* repair =
+      command->add_flag("--repair", options.repair,
+                        "Compute again what is wrong, and put the rows right where they differ");
+  command
+      ->add_option("--recompute", options.recompute,
+                   "Compute finished jobs again and compare every bit: a job's number, all, or a "
+                   "part of them such as 5%")
+      ->type_name("JOB|all|N%")
+      ->check(CLI::Validator([](std::string& word) { return fault_of_choice(word); }, ""))
+      ->excludes(repair);
+  command->footer(examples(R"(  campaign verify && echo sound
+  campaign verify --recompute 12
+  campaign verify --recompute 5% --store dense.db
+  campaign verify --repair && campaign run
+
+Exit code 1: something is wrong. Each row has a digest since it was written, so that any bit that has
+flipped since is found. --recompute costs the CPU time of the jobs, and finds what was wrong when it
+was written; it changes nothing. --repair changes only what is wrong, and says what it changed.)"));
+  return command;
+}
+
+CLI::App* add_retry(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "retry", "Reopen failed jobs and those whose checkpoint or rows are damaged");
+  command->footer(examples("  campaign retry && campaign run"));
+  return command;
+}
+
+CLI::App* add_backup(CLI::App& app, BackupCommand& options) {
+  auto* command =
+      app.add_subcommand("backup", "Copy the store to another file, also while a run is on");
+  command->add_option("FILE", options.to, "The copy; must not be there yet")
+      ->type_name("FILE")
+      ->required();
+  command->footer(examples(R"(  campaign backup monday.db
+  campaign backup /media/disk/dense.db --store dense.db
+
+The copy holds the store as it is at one moment, in one file, and is checked. While a run is on,
+part of the store is in a second file, campaign.db-wal: `cp campaign.db` alone would miss it.
+Jobs that are being run are pending in the copy.)"));
+  return command;
+}
+
+CLI::App* add_upgrade(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("upgrade", "Bring a store of an older version of this program forward");
+  command->footer(examples(R"(  campaign backup before.db && campaign upgrade
+
+An older store can be read as it is; to plan and run in it takes this command, while nothing runs.
+It is one transaction: cut off, it has changed nothing. Older programs cannot use the store after
+it.)"));
+  return command;
+}
+
+}  // namespace haff::campaign
