@@ -1,4 +1,4 @@
-// 500 flipped bits, each with a seed; a few are in the gate (tests/cli/flipped_bits.cpp).
+// 500 flipped bits, each with a seed; a few are in the gate (tests/cli/store/flipped_bits.cpp).
 #include "support/flipped_bits.hpp"
 
 #include <doctest/doctest.h>

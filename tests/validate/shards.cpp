@@ -1,5 +1,5 @@
 // Shards of every size and in great number: memory stays flat, time grows with the number of jobs.
-// And more random campaigns than cli/shards has time for.
+// And more random campaigns than cli/cluster/shards has time for.
 #include <doctest/doctest.h>
 
 #include <chrono>
