@@ -4,13 +4,18 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "campaign/base/output/output.hpp"
 #include "campaign/base/process/exit_code.hpp"
 #include "campaign/base/process/version.hpp"
 #include "campaign/base/text/command_text.hpp"
+#include "campaign/base/text/duration.hpp"
 #include "campaign/commands/documents.hpp"
 #include "campaign/commands/json_output.hpp"
 #include "campaign/commands/options.hpp"
@@ -73,6 +78,43 @@ std::string complaint(const CLI::App* app, const CLI::Error& error) {
   return fmt::format("campaign: {}\nSee: {} --help\n", error.what(), name);
 }
 
+// The commands, each with its options. The one that was given is known once the line is parsed.
+class CommandsOffered {
+ public:
+  explicit CommandsOffered(CLI::App& app) : app_(app) {}
+
+  template <class Options>
+  void add(CLI::App* (*describe)(CLI::App&, Options&)) {
+    const auto options = std::make_shared<Options>();
+    const CLI::App* command = describe(app_, *options);
+    offered_.push_back({command, [options] { return Command(*options); }});
+  }
+
+  Command given() const {
+    for (const Offered& each : offered_)
+      if (each.command->parsed()) return each.options();
+    throw std::logic_error("no command was given");
+  }
+
+ private:
+  struct Offered {
+    const CLI::App* command;
+    std::function<Command()> options;
+  };
+  CLI::App& app_;
+  std::vector<Offered> offered_;
+};
+
+// What may stand before every command: which store, and whether output is JSON.
+template <class Options>
+void share(const CommandLine& line, Options& options) {
+  if constexpr (requires { options.store; }) options.store = line.store;
+  if constexpr (requires { options.cluster.store; }) options.cluster.store = line.store;
+  if constexpr (requires { options.json; }) options.json = line.json;
+  if constexpr (requires { options.format; })
+    if (line.json) options.format = RowFormat::json;
+}
+
 }  // namespace
 
 std::string examples(const char* text) {
@@ -80,6 +122,12 @@ std::string examples(const char* text) {
       "Examples:\n{}\n\n--store FILE (default {}), --verbose and --json may stand before or "
       "after a command.",
       text, default_store);
+}
+
+double seconds_given(const std::string& option, const std::string& text) {
+  if (const auto seconds = seconds_from_text(text)) return *seconds;
+  throw CLI::ValidationError(option,
+                             "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
 }
 
 Parsed parse_command_line(int argc, const char* const* argv) {
@@ -106,46 +154,28 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   app.add_flag("--json", line.json,
                "Print JSON instead of tables, and errors as JSON on stderr: " + names_with_json());
 
-  PlanOptions plan;
-  RunOptions run;
-  StatusOptions status;
-  ExplainCommand explained;
-  QueryCommand query;
-  FigureRequest figures;
-  PlotOptions plotted;
-  ExportCommand exported;
-  CostRequest cost;
-  VerifyOptions verify;
-  BackupCommand backup;
-  SplitOptions split;
-  MergeOptions merge;
-  RecallOptions recall;
-  SubmitOptions submit;
-  TaskOptions task;
-  TheoryOptions theory;
-  ReportOptions report;
-  WorkerCommand worker;
-  const CLI::App* plan_command = add_plan(app, plan);
-  const CLI::App* run_command = add_run(app, run);
-  const CLI::App* status_command = add_status(app, status);
-  const CLI::App* explain_command = add_explain(app, explained);
-  const CLI::App* query_command = add_query(app, query);
-  const CLI::App* figures_command = add_figures(app, figures);
-  const CLI::App* plot_command = add_plot(app, plotted);
-  const CLI::App* export_command = add_export(app, exported);
-  const CLI::App* cost_command = add_cost(app, cost);
-  const CLI::App* verify_command = add_verify(app, verify);
-  const CLI::App* retry_command = add_retry(app);
-  const CLI::App* backup_command = add_backup(app, backup);
-  const CLI::App* upgrade_command = add_upgrade(app);
-  const CLI::App* split_command = add_split(app, split);
-  const CLI::App* merge_command = add_merge(app, merge);
-  const CLI::App* recall_command = add_recall(app, recall);
-  const CLI::App* submit_command = add_submit(app, submit);
-  const CLI::App* task_command = add_task(app, task);
-  const CLI::App* theory_command = add_theory(app, theory);
-  const CLI::App* report_command = add_report(app, report);
-  const CLI::App* worker_command = add_worker(app, worker);
+  CommandsOffered offered(app);
+  offered.add(add_plan);
+  offered.add(add_run);
+  offered.add(add_status);
+  offered.add(add_explain);
+  offered.add(add_query);
+  offered.add(add_figures);
+  offered.add(add_plot);
+  offered.add(add_export);
+  offered.add(add_cost);
+  offered.add(add_verify);
+  offered.add(add_retry);
+  offered.add(add_backup);
+  offered.add(add_upgrade);
+  offered.add(add_split);
+  offered.add(add_merge);
+  offered.add(add_recall);
+  offered.add(add_submit);
+  offered.add(add_task);
+  offered.add(add_theory);
+  offered.add(add_report);
+  offered.add(add_worker);
   std::string kind;
   const CLI::App* document_command = add_document(app, kind);
 
@@ -168,33 +198,9 @@ Parsed parse_command_line(int argc, const char* const* argv) {
     return exit_complete;
   }
 
-  plan.json = cost.json = run.json = status.json = split.json = merge.json = recall.json =
-      line.json;
-  if (line.json) query.format = theory.format = RowFormat::json;
-  line.store = plan.store = run.store = split.store = merge.store = recall.store =
-      submit.cluster.store = report.store = status.store = verify.store = store;
-  verify.json = line.json;
-  if (plan_command->parsed()) line.command = plan;
-  if (run_command->parsed()) line.command = run;
-  if (status_command->parsed()) line.command = status;
-  if (explain_command->parsed()) line.command = explained;
-  if (query_command->parsed()) line.command = query;
-  if (figures_command->parsed()) line.command = figures;
-  if (plot_command->parsed()) line.command = plotted;
-  if (export_command->parsed()) line.command = exported;
-  if (cost_command->parsed()) line.command = cost;
-  if (verify_command->parsed()) line.command = verify;
-  if (retry_command->parsed()) line.command = RetryCommand{};
-  if (backup_command->parsed()) line.command = backup;
-  if (upgrade_command->parsed()) line.command = UpgradeCommand{};
-  if (split_command->parsed()) line.command = split;
-  if (merge_command->parsed()) line.command = merge;
-  if (recall_command->parsed()) line.command = recall;
-  if (submit_command->parsed()) line.command = submit;
-  if (task_command->parsed()) line.command = task;
-  if (theory_command->parsed()) line.command = theory;
-  if (report_command->parsed()) line.command = report;
-  if (worker_command->parsed()) line.command = worker;
+  line.store = store;
+  line.command = offered.given();
+  std::visit([&line](auto& options) { share(line, options); }, line.command);
   return line;
 }
 

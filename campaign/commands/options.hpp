@@ -14,6 +14,19 @@ inline constexpr int most_threads = 64;  // of a worker
 // The foot of a command's help.
 std::string examples(const char* text);
 
+// The value of an option that is a duration [s]. Throws CLI::ValidationError if the text is none.
+double seconds_given(const std::string& option, const std::string& text);
+
+// An option that is a duration: 90s, 45m or 1h30m. Seconds: double, or optional<double>.
+template <class Seconds>
+CLI::Option* add_duration(CLI::App* command, const std::string& name, Seconds& seconds,
+                          const std::string& what) {
+  const auto set = [&seconds, name](const std::string& text) {
+    seconds = seconds_given(name, text);
+  };
+  return command->add_option_function<std::string>(name, set, what)->type_name("TIME");
+}
+
 // run/options.cpp
 CLI::App* add_plan(CLI::App& app, PlanOptions& options);
 CLI::App* add_run(CLI::App& app, RunOptions& options);
@@ -23,9 +36,9 @@ CLI::App* add_worker(CLI::App& app, WorkerCommand& options);
 
 // store/options.cpp
 CLI::App* add_verify(CLI::App& app, VerifyOptions& options);
-CLI::App* add_retry(CLI::App& app);
+CLI::App* add_retry(CLI::App& app, RetryCommand& options);
 CLI::App* add_backup(CLI::App& app, BackupCommand& options);
-CLI::App* add_upgrade(CLI::App& app);
+CLI::App* add_upgrade(CLI::App& app, UpgradeCommand& options);
 
 // results/options.cpp
 CLI::App* add_query(CLI::App& app, QueryCommand& options);

@@ -2,7 +2,6 @@
 #include "campaign/commands/options.hpp"
 
 #include "campaign/base/process/machine.hpp"
-#include "campaign/base/text/duration.hpp"
 
 namespace haff::campaign {
 
@@ -12,19 +11,6 @@ constexpr int most_rounds = 1000;
 constexpr int default_rounds = 20;
 constexpr double default_put_back_every = 600;  // [s]
 constexpr int most_shards = 100'000;
-
-// A duration given as text.
-CLI::Option* add_duration(CLI::App* command, const std::string& name, double& seconds,
-                          const std::string& what) {
-  const auto set = [&seconds, name](const std::string& text) {
-    const auto value = seconds_from_text(text);
-    if (!value)
-      throw CLI::ValidationError(name,
-                                 "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
-    seconds = *value;
-  };
-  return command->add_option_function<std::string>(name, set, what)->type_name("TIME");
-}
 
 }  // namespace
 
@@ -128,16 +114,7 @@ CLI::App* add_task(CLI::App& app, TaskOptions& options) {
       ->check(CLI::Range(1, most_workers))
       ->type_name("K")
       ->capture_default_str();
-  const auto set_max_time = [&options](const std::string& text) {
-    options.max_seconds = seconds_from_text(text);
-    if (!options.max_seconds)
-      throw CLI::ValidationError("--max-time",
-                                 "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
-  };
-  command
-      ->add_option_function<std::string>("--max-time", set_max_time,
-                                         "Stop computing after this time")
-      ->type_name("TIME");
+  add_duration(command, "--max-time", options.max_seconds, "Stop computing after this time");
   add_duration(command, "--put-back-every", options.put_back_every, "How often the shard is saved")
       ->default_str("10m");
   command->footer(examples(R"(  campaign task --workers 8 --max-time 3h50m shards/shard-001.db

@@ -56,27 +56,12 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   command->callback([&options, workers] {
     if (workers->count() == 0) options.workers = std::max(1, processors() / options.threads);
   });
-  const auto set_max_time = [&options](const std::string& text) {
-    options.max_seconds = seconds_from_text(text);
-    if (!options.max_seconds)
-      throw CLI::ValidationError("--max-time",
-                                 "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
-  };
-  command
-      ->add_option_function<std::string>("--max-time", set_max_time,
-                                         "Stop after this time: 90s, 45m, 1h30m; take no job of "
-                                         "which nothing could be stored by then")
-      ->type_name("TIME");
-  const auto set_budget = [&options](const std::string& text) {
-    options.cpu_budget = seconds_from_text(text);
-    if (!options.cpu_budget)
-      throw CLI::ValidationError("--budget",
-                                 "'" + text + "' is no duration; expected e.g. 90s, 45m or 1h30m");
-  };
-  command
-      ->add_option_function<std::string>("--budget", set_budget,
-                                         "Spend at most this CPU time, all workers together")
-      ->type_name("TIME");
+  add_duration(
+      command, "--max-time", options.max_seconds,
+      "Stop after this time: 90s, 45m, 1h30m; take no job of which nothing could be stored "
+      "by then");
+  add_duration(command, "--budget", options.cpu_budget,
+               "Spend at most this CPU time, all workers together");
   command
       ->add_option("--log-json", options.log_json,
                    "Append what happens to this file, a line of JSON an event")

@@ -29,7 +29,7 @@ was written; it changes nothing. --repair changes only what is wrong, and says w
   return command;
 }
 
-CLI::App* add_retry(CLI::App& app) {
+CLI::App* add_retry(CLI::App& app, RetryCommand&) {
   auto* command = app.add_subcommand(
       "retry", "Reopen failed jobs and those whose checkpoint or rows are damaged");
   command->footer(examples("  campaign retry && campaign run"));
@@ -51,7 +51,7 @@ Jobs that are being run are pending in the copy.)"));
   return command;
 }
 
-CLI::App* add_upgrade(CLI::App& app) {
+CLI::App* add_upgrade(CLI::App& app, UpgradeCommand&) {
   auto* command =
       app.add_subcommand("upgrade", "Bring a store of an older version of this program forward");
   command->footer(examples(R"(  campaign backup before.db && campaign upgrade
