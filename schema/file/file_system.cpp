@@ -12,6 +12,8 @@
 #include <new>
 #include <string_view>
 
+#include "schema/file/passing_file.hpp"
+
 namespace haff::schema {
 
 namespace {
@@ -44,11 +46,11 @@ struct File {
 };
 
 File* own(sqlite3_file* file) {
-  return reinterpret_cast<File*>(file);
+  return schema::own<File>(file);
 }
 
 sqlite3_file* below(sqlite3_file* file) {
-  return reinterpret_cast<sqlite3_file*>(own(file) + 1);
+  return schema::below<File>(file);
 }
 
 int system_error(sqlite3_file* file) {
@@ -60,10 +62,6 @@ int system_error(sqlite3_file* file) {
 int noted(int result, sqlite3_file* file, Operation operation) {
   if (result != SQLITE_OK) note(operation, own(file)->name, system_error(file));
   return result;
-}
-
-int close(sqlite3_file* file) {
-  return below(file)->pMethods->xClose(below(file));
 }
 
 int read(sqlite3_file* file, void* to, int size, sqlite3_int64 offset) {
@@ -112,18 +110,6 @@ int reserved_lock(sqlite3_file* file, int* is_held) {
                Operation::lock);
 }
 
-int control(sqlite3_file* file, int what, void* argument) {
-  return below(file)->pMethods->xFileControl(below(file), what, argument);
-}
-
-int sector_size(sqlite3_file* file) {
-  return below(file)->pMethods->xSectorSize(below(file));
-}
-
-int characteristics(sqlite3_file* file) {
-  return below(file)->pMethods->xDeviceCharacteristics(below(file));
-}
-
 int map_shared(sqlite3_file* file, int region, int size, int extend, void volatile** memory) {
   const int result = below(file)->pMethods->xShmMap(below(file), region, size, extend, memory);
   const int kind = result & 0xff;
@@ -134,47 +120,19 @@ int map_shared(sqlite3_file* file, int region, int size, int extend, void volati
   return result;
 }
 
-int lock_shared(sqlite3_file* file, int offset, int count, int flags) {
-  return below(file)->pMethods->xShmLock(below(file), offset, count, flags);
-}
-
-void barrier(sqlite3_file* file) {
-  below(file)->pMethods->xShmBarrier(below(file));
-}
-
-int unmap_shared(sqlite3_file* file, int remove) {
-  return below(file)->pMethods->xShmUnmap(below(file), remove);
-}
-
-int fetch(sqlite3_file* file, sqlite3_int64 offset, int size, void** memory) {
-  return below(file)->pMethods->xFetch(below(file), offset, size, memory);
-}
-
-int unfetch(sqlite3_file* file, sqlite3_int64 offset, void* memory) {
-  return below(file)->pMethods->xUnfetch(below(file), offset, memory);
-}
-
-constexpr sqlite3_io_methods methods{
-    .iVersion = 3,
-    .xClose = close,
-    .xRead = read,
-    .xWrite = write,
-    .xTruncate = truncate,
-    .xSync = sync,
-    .xFileSize = size_of,
-    .xLock = lock,
-    .xUnlock = unlock,
-    .xCheckReservedLock = reserved_lock,
-    .xFileControl = control,
-    .xSectorSize = sector_size,
-    .xDeviceCharacteristics = characteristics,
-    .xShmMap = map_shared,
-    .xShmLock = lock_shared,
-    .xShmBarrier = barrier,
-    .xShmUnmap = unmap_shared,
-    .xFetch = fetch,
-    .xUnfetch = unfetch,
-};
+constexpr sqlite3_io_methods methods = [] {
+  sqlite3_io_methods ours = passing_methods<File>();
+  ours.xRead = read;
+  ours.xWrite = write;
+  ours.xTruncate = truncate;
+  ours.xSync = sync;
+  ours.xFileSize = size_of;
+  ours.xLock = lock;
+  ours.xUnlock = unlock;
+  ours.xCheckReservedLock = reserved_lock;
+  ours.xShmMap = map_shared;
+  return ours;
+}();
 
 sqlite3_vfs* system_below(sqlite3_vfs* vfs) {
   return static_cast<sqlite3_vfs*>(vfs->pAppData);

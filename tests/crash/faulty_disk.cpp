@@ -3,9 +3,8 @@
 // by the environment, in all processes of a run:
 //
 //   HAFF_TRACE=FILE                     append what is written, truncated, synced, made and deleted
-//   HAFF_FAIL=KIND:N:ERRNO:once|ever    let the N-th call of a kind fail in each process: read,
-//   write,
-//                                       sync, truncate, open, delete, allocate
+//   HAFF_FAIL=KIND:N:ERRNO:once|ever    let the N-th call of a kind fail in each process;
+//                                       kinds: read, write, sync, truncate, open, delete, allocate
 //   HAFF_FAIL_IN=main|worker            only in these processes
 //   HAFF_FAILED=FILE                    made when a call was made to fail
 //
@@ -23,6 +22,7 @@
 #include <sstream>
 #include <string>
 
+#include "schema/file/passing_file.hpp"
 #include "trace.hpp"
 
 namespace haff::tests {
@@ -119,21 +119,17 @@ struct File {
 sqlite3_vfs* system_below = nullptr;
 
 File* own(sqlite3_file* file) {
-  return reinterpret_cast<File*>(file);
+  return schema::own<File>(file);
 }
 
 sqlite3_file* below(sqlite3_file* file) {
-  return reinterpret_cast<sqlite3_file*>(own(file) + 1);
+  return schema::below<File>(file);
 }
 
 bool fails(const char* kind, sqlite3_file* file) {
   const bool does = fails(kind);
   own(file)->error = does ? errno : 0;
   return does;
-}
-
-int close(sqlite3_file* file) {
-  return below(file)->pMethods->xClose(below(file));
 }
 
 // As SQLite's own VFS answers: EIO is a corrupt file system to it.
@@ -163,18 +159,6 @@ int sync(sqlite3_file* file, int flags) {
   return result;
 }
 
-int size_of(sqlite3_file* file, sqlite3_int64* size) {
-  return below(file)->pMethods->xFileSize(below(file), size);
-}
-int lock(sqlite3_file* file, int level) {
-  return below(file)->pMethods->xLock(below(file), level);
-}
-int unlock(sqlite3_file* file, int level) {
-  return below(file)->pMethods->xUnlock(below(file), level);
-}
-int reserved_lock(sqlite3_file* file, int* is_held) {
-  return below(file)->pMethods->xCheckReservedLock(below(file), is_held);
-}
 int control(sqlite3_file* file, int what, void* argument) {
   if (what == SQLITE_FCNTL_LAST_ERRNO && own(file)->error != 0) {
     *static_cast<int*>(argument) = own(file)->error;
@@ -182,52 +166,15 @@ int control(sqlite3_file* file, int what, void* argument) {
   }
   return below(file)->pMethods->xFileControl(below(file), what, argument);
 }
-int sector_size(sqlite3_file* file) {
-  return below(file)->pMethods->xSectorSize(below(file));
-}
-int characteristics(sqlite3_file* file) {
-  return below(file)->pMethods->xDeviceCharacteristics(below(file));
-}
-int map_shared(sqlite3_file* file, int region, int size, int extend, void volatile** memory) {
-  return below(file)->pMethods->xShmMap(below(file), region, size, extend, memory);
-}
-int lock_shared(sqlite3_file* file, int offset, int count, int flags) {
-  return below(file)->pMethods->xShmLock(below(file), offset, count, flags);
-}
-void barrier(sqlite3_file* file) {
-  below(file)->pMethods->xShmBarrier(below(file));
-}
-int unmap_shared(sqlite3_file* file, int remove) {
-  return below(file)->pMethods->xShmUnmap(below(file), remove);
-}
-int fetch(sqlite3_file* file, sqlite3_int64 offset, int size, void** memory) {
-  return below(file)->pMethods->xFetch(below(file), offset, size, memory);
-}
-int unfetch(sqlite3_file* file, sqlite3_int64 offset, void* memory) {
-  return below(file)->pMethods->xUnfetch(below(file), offset, memory);
-}
-
-constexpr sqlite3_io_methods methods{
-    .iVersion = 3,
-    .xClose = close,
-    .xRead = read,
-    .xWrite = write,
-    .xTruncate = truncate,
-    .xSync = sync,
-    .xFileSize = size_of,
-    .xLock = lock,
-    .xUnlock = unlock,
-    .xCheckReservedLock = reserved_lock,
-    .xFileControl = control,
-    .xSectorSize = sector_size,
-    .xDeviceCharacteristics = characteristics,
-    .xShmMap = map_shared,
-    .xShmLock = lock_shared,
-    .xShmBarrier = barrier,
-    .xShmUnmap = unmap_shared,
-    .xFetch = fetch,
-    .xUnfetch = unfetch,
-};
+constexpr sqlite3_io_methods methods = [] {
+  sqlite3_io_methods ours = schema::passing_methods<File>();
+  ours.xRead = read;
+  ours.xWrite = write;
+  ours.xTruncate = truncate;
+  ours.xSync = sync;
+  ours.xFileControl = control;
+  return ours;
+}();
 
 TracedFile traced(int flags) {
   if ((flags & SQLITE_OPEN_MAIN_DB) != 0) return TracedFile::store;
