@@ -1,15 +1,10 @@
 #include "analysis/statistics/statistics.hpp"
 
-#include <gsl/gsl_rng.h>
-#include <gsl/gsl_statistics_double.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
-
-#include "analysis/gsl.hpp"
 
 namespace haff::analysis {
 namespace {
@@ -94,27 +89,6 @@ BlockEstimate block_estimate(std::span<const double> series) {
     best.correlation_time = 0.5 * std::pow(best.estimate.standard_error / naive.standard_error, 2);
   }
   return best;
-}
-
-Interval bootstrap_interval(std::span<const double> values, double confidence) {
-  if (values.empty()) throw std::invalid_argument("bootstrap of no values");
-  constexpr std::size_t resamples = 10'000;
-  constexpr unsigned long seed = 20030905;
-  gsl::report_errors();
-  const gsl::Owned<gsl_rng, gsl_rng_free> random(gsl_rng_alloc(gsl_rng_mt19937));
-  gsl_rng_set(random.get(), seed);
-
-  std::vector<double> means(resamples);
-  std::vector<double> drawn(values.size());
-  for (double& mean : means) {
-    for (double& each : drawn) each = values[gsl_rng_uniform_int(random.get(), values.size())];
-    mean = mean_of(drawn);
-  }
-  std::ranges::sort(means);
-  const auto quantile = [&](double share) {
-    return gsl_stats_quantile_from_sorted_data(means.data(), 1, means.size(), share);
-  };
-  return {.low = quantile((1 - confidence) / 2), .high = quantile((1 + confidence) / 2)};
 }
 
 std::vector<double> smoothed(std::span<const double> series, std::size_t window) {

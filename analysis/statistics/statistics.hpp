@@ -42,17 +42,6 @@ struct BlockEstimate {
 // 1/sqrt(2 (blocks - 1)) of itself.
 BlockEstimate block_estimate(std::span<const double> series);
 
-// An interval that holds the mean of independent values with the given confidence: the percentile
-// bootstrap, B. Efron, Ann. Stat. 7, 1 (1979). Means of 10 000 samples drawn with replacement, by
-// GSL's mt19937 with a fixed seed, so that the same values give the same bits. Of R values it is
-// too narrow by a factor of about sqrt((R - 1) / R), and never wider than the values themselves;
-// one value gives that value twice. Throws std::invalid_argument if there are none.
-struct Interval {
-  double low = 0;
-  double high = 0;
-};
-Interval bootstrap_interval(std::span<const double> values, double confidence = 0.95);
-
 // Centred moving average over `window` (odd) neighbours; the window shrinks symmetrically at the
 // ends. Same length as the series. Throws std::invalid_argument for an even window.
 std::vector<double> smoothed(std::span<const double> series, std::size_t window);

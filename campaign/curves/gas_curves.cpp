@@ -58,7 +58,8 @@ GasCurve mean_of(const Observation& observation, int laguerre) {
     curve.points.push_back(
         {.x = mean_x(readings),
          .y = mean.mean,
-         .error = error_of_mean(laguerre, mean.standard_error, job.particles, realizations, job.d),
+         .error = error_of_mean(laguerre, mean.standard_error, realizations,
+                                static_cast<double>(job.particles * realizations), job.d),
          .realizations = realizations});
   }
   return curve;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/direct/direct_simulation.hpp"
+#include "analysis/theory/correlations.hpp"
 #include "analysis/theory/mixture.hpp"
 #include "analysis/theory/rough_spheres.hpp"
 
@@ -19,8 +20,8 @@ struct TheoryPoint {
   int d = 3;
   double n = 0.4;
   double e = 0.85;
-  double b = 0.30;           // of the cutoff k_M of Tr G^+
-  double tau = 50;           // of a curve in r
+  double b = analysis::cutoff_b;  // of the cutoff k_M of Tr G^+
+  double tau = 50;                // of a curve in r
   bool other_law = false;    // another law of restitution, or heating: the direct simulation alone
                              // knows it
   bool is_shuffled = false;  // no correlations of velocities: theory without them is all there is

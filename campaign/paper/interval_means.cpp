@@ -3,13 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/observables/moments.hpp"
-
 namespace haff::campaign {
 namespace {
-
-// Of a_2 near the Gaussian. [tau]
-constexpr double correlation_time = 1.94;
 
 // The mean of samples first ... last - 1, over realizations.
 analysis::Estimate mean_of_samples(const MeanSeries& series, RunValue value, std::size_t first,
@@ -36,15 +31,13 @@ std::size_t end_of(const MeanSeries& series, const Intervals& intervals, std::si
   return last;
 }
 
-double error_of(const MeanSeries& series, RunValue value, const analysis::Estimate& mean,
-                double width) {
+// Of a mean over an interval of this width.
+double error_of_interval(const MeanSeries& series, RunValue value, const analysis::Estimate& mean,
+                         double width) {
   const auto runs = static_cast<std::int64_t>(mean.count);
-  const double scatter = bar(mean.standard_error, runs);
-  if (value != RunValue::a2) return scatter;
-  const double independent = std::max(1.0, width / (2 * correlation_time));
-  const double known =
-      analysis::laguerre_noise(2, static_cast<double>(series.particles * runs) * independent);
-  return scatter > known ? scatter : known;  // one realization has no scatter
+  const double independent = std::max(1.0, width / (2 * a2_correlation_time));
+  return error_of_mean(value == RunValue::a2 ? 2 : 0, mean.standard_error, runs,
+                       static_cast<double>(series.particles * runs) * independent);
 }
 
 }  // namespace
@@ -59,7 +52,7 @@ void add_interval_means(const MeanSeries& series, RunValue value, const Interval
     const double middle = 0.5 * (series.tau[i] + series.tau[last - 1]);
     curve.x.push_back(rate ? middle - 0.5 * series.sample_every : middle);
     curve.y.push_back(mean.mean);
-    curve.error.push_back(error_of(series, value, mean, width));
+    curve.error.push_back(error_of_interval(series, value, mean, width));
     curve.realizations.push_back(static_cast<std::int64_t>(mean.count));
     i = last;
   }

@@ -6,6 +6,7 @@
 
 #include "analysis/observables/coarse_grained.hpp"
 #include "campaign/job/timetable.hpp"
+#include "engine/initial.hpp"
 #include "engine/simulation.hpp"
 
 namespace haff::campaign {
@@ -103,7 +104,7 @@ double field_bytes(const schema::Job& job) {
 }
 
 double box_of(const schema::Job& job) {
-  return std::pow(job.particles / job.n, 1.0 / job.d);
+  return engine::box_side(job.n, job.particles, job.d);
 }
 
 // Arrays that a look at the whole gas needs at once: for correlations a field and its transform,

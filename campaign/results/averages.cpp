@@ -80,9 +80,10 @@ std::map<schema::Row, MeanSeries> read_means(const schema::Reader& store, const 
       Means& means = series.*each.means;
       means.value.push_back(real(r[column++]));
       const double standard_error = real(r[column++]);
+      const std::int64_t runs = series.realizations.back();
       means.error.push_back(std::isfinite(means.value.back())
-                                ? error_of_mean(each.laguerre, standard_error, series.particles,
-                                                series.realizations.back())
+                                ? error_of_mean(each.laguerre, standard_error, runs,
+                                                static_cast<double>(series.particles * runs))
                                 : none);
     }
     if (const double every = real(r[column]); every > 0) series.shuffled_every = every;
@@ -227,12 +228,11 @@ double bar(double standard_error, std::int64_t realizations) {
   return place->second * standard_error;
 }
 
-double error_of_mean(int laguerre, double standard_error, std::int64_t particles,
-                     std::int64_t realizations, int d) {
+double error_of_mean(int laguerre, double standard_error, std::int64_t realizations,
+                     double velocities, int d) {
   const double scatter = bar(standard_error, realizations);
   if (laguerre == 0) return scatter;
-  const double known =
-      analysis::laguerre_noise(laguerre, static_cast<double>(particles * realizations), d);
+  const double known = analysis::laguerre_noise(laguerre, velocities, d);
   return scatter > known ? scatter : known;  // one realization has no scatter
 }
 

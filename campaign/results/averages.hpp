@@ -25,10 +25,11 @@ struct Means {
 // Such an error, of a standard error over so many realizations. NaN for one.
 double bar(double standard_error, std::int64_t realizations);
 
-// The same of a mean over gases of so many particles; of the Laguerre coefficient of this order (0
-// for everything else) never less than that of Gaussian velocities.
-double error_of_mean(int laguerre, double standard_error, std::int64_t particles,
-                     std::int64_t realizations, int d = 3);
+// The same of a mean that `velocities` independent velocities, of all realizations together, went
+// into; of the Laguerre coefficient of this order (0 for everything else) never less than that of
+// Gaussian velocities.
+double error_of_mean(int laguerre, double standard_error, std::int64_t realizations,
+                     double velocities, int d = 3);
 
 // One finished run: for what is fitted, or drawn, realization by realization.
 struct Realization {

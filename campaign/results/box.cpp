@@ -9,6 +9,7 @@
 #include "analysis/theory/enskog.hpp"
 #include "analysis/theory/modes.hpp"
 #include "campaign/base/text/number_text.hpp"
+#include "engine/initial.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -33,7 +34,7 @@ std::optional<BoxReport> box_report(const schema::Job& job) {
   const analysis::InstabilityBounds bounds = analysis::instability_bounds(gas);
 
   BoxReport report;
-  report.side = std::pow(job.particles / job.n, 1.0 / job.d);
+  report.side = engine::box_side(job.n, job.particles, job.d);
   report.vortex_length = full * length.transverse;
   report.cluster_length = full * length.longitudinal;
   if (bounds.heat > 0) report.heat_length = full / bounds.heat;

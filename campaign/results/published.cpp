@@ -1,25 +1,28 @@
 #include "campaign/results/published.hpp"
 
-#include <array>
+#include <fmt/format.h>
+
+#include <vector>
 
 namespace haff::campaign {
-namespace {
-
-struct Entry {
-  double e;
-  double tau_c;
-};
-
-constexpr double published_density = 0.40;
-constexpr std::array<Entry, 4> published{{{0.80, 58}, {0.85, 82}, {0.90, 134}, {0.95, 309}}};
-
-}  // namespace
 
 std::optional<double> published_tau_c(const schema::Job& job) {
   if (job.d != 3 || job.n != published_density || !job.effects.none()) return std::nullopt;
-  for (const Entry& entry : published)
-    if (entry.e == job.e) return entry.tau_c;
+  for (const PublishedTauC& published : published_tau_cs)
+    if (published.e == job.e) return published.tau_c;
   return std::nullopt;
+}
+
+std::string published_tau_c_text() {
+  std::vector<std::string> restitutions, crossovers;
+  restitutions.reserve(published_tau_cs.size());
+  crossovers.reserve(published_tau_cs.size());
+  for (const PublishedTauC& published : published_tau_cs) {
+    restitutions.push_back(fmt::format("{:.2f}", published.e));
+    crossovers.push_back(fmt::format("{:g}", published.tau_c));
+  }
+  return fmt::format("τ_c = {} for e = {}.", fmt::join(crossovers, ", "),
+                     fmt::join(restitutions, ", "));
 }
 
 }  // namespace haff::campaign

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/theory/correlations.hpp"
 #include "campaign/commands/results/query.hpp"
 
 namespace haff::campaign {
@@ -19,7 +20,7 @@ struct TheoryOptions {
   std::vector<double> e = {0.85};
   std::vector<double> n = {0.4};
   std::vector<double> tau, r, k;  // empty: the usual ones
-  double b = 0.30;
+  double b = analysis::cutoff_b;
   std::string effects = "{}";  // as in a grid
   std::uint32_t particles = 100'000;
   std::uint32_t realizations = 16;

@@ -2,14 +2,15 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <thread>
 
 #include "campaign/base/output/output.hpp"
+#include "campaign/base/output/terminal.hpp"
 #include "campaign/base/process/exit_code.hpp"
 #include "campaign/base/process/signals.hpp"
 #include "campaign/base/text/printable.hpp"
@@ -34,11 +35,10 @@ std::string time_of_day() {
 
 // Over what is there, so that nothing flickers.
 void draw(const std::string& text) {
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row < 2)
-    size = {.ws_row = 24, .ws_col = 80, .ws_xpixel = 0, .ws_ypixel = 0};
+  const TerminalSize size = terminal_size(STDOUT_FILENO);
   std::string picture = "\033[H";
-  for (const std::string& line : screen_of(text, size.ws_col, size.ws_row - 1U))
+  for (const std::string& line : screen_of(text, static_cast<std::size_t>(size.columns),
+                                           static_cast<std::size_t>(std::max(size.lines - 1, 1))))
     picture += line + "\033[K\n";
   picture += fmt::format("{}; Ctrl-C ends this\033[K\033[J", time_of_day());
   write_all(picture);

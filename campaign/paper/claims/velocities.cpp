@@ -14,6 +14,7 @@
 #include "analysis/theory/enskog_boltzmann.hpp"
 #include "campaign/paper/claims/claims.hpp"
 #include "campaign/paper/figure.hpp"
+#include "campaign/paper/interval_means.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -21,13 +22,12 @@ namespace {
 constexpr double base_restitution = 0.90;  // of the paper's a_l
 constexpr double short_times = 3;          // tau: until then correlations have hardly built up
 constexpr double deepest_from = 5, deepest_until = 30;  // tau: a_2 is near its deepest at e = 0.90
-constexpr std::size_t return_window = 5;   // samples that the returning a_2 is smoothed over
-constexpr double normal_interval = 1.96;   // standard errors, of 95 %
-constexpr double correlation_time = 1.94;  // of a_2 near the Gaussian, in tau (tests of cost)
+constexpr std::size_t return_window = 5;  // samples that the returning a_2 is smoothed over
+constexpr double normal_interval = 1.96;  // standard errors, of 95 %
 
 // Half the 95 % interval of the mean of a_l over neighbouring samples that span `width` of tau.
 double known_half_interval(const MeanSeries& series, int l, double width) {
-  const double independent = std::max(1.0, width / (2 * correlation_time));
+  const double independent = std::max(1.0, width / (2 * a2_correlation_time));
   const auto particles = static_cast<double>(series.particles * series.most_realizations());
   return normal_interval * analysis::laguerre_noise(l, particles) / std::sqrt(independent);
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -19,8 +18,6 @@
 
 namespace haff::campaign {
 namespace {
-
-constexpr std::array restitutions = {0.80, 0.85, 0.90, 0.95};  // that the paper gives tau_c for
 
 double decay(double e) {
   return 2 * analysis::gamma0(e);
@@ -111,7 +108,7 @@ std::optional<Plot> figure_02(const Averages& averages) {
   measured.look = Look::symbols;
   measured.size = 0.8;
   measured.colour = colour(0, 2);
-  double least = decay(restitutions.back()), most = decay(restitutions.front());
+  double least = decay(published_tau_cs.back().e), most = decay(published_tau_cs.front().e);
   for (const MeanTauC& each : chosen) {
     measured.x.push_back(decay(each.e));
     measured.y.push_back(each.tau_c);
@@ -128,11 +125,9 @@ std::optional<Plot> figure_02(const Averages& averages) {
   paper.symbol = 4;
   paper.size = 1.3;
   paper.colour = colour(1, 2);
-  for (const double e : restitutions) {
-    if (const auto tau = published_tau_c({.e = e, .n = base_density})) {
-      paper.x.push_back(decay(e));
-      paper.y.push_back(*tau);
-    }
+  for (const PublishedTauC& published : published_tau_cs) {
+    paper.x.push_back(decay(published.e));
+    paper.y.push_back(published.tau_c);
   }
 
   constexpr double room = 1.25;  // at the ends of logarithmic axes

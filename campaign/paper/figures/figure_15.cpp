@@ -16,6 +16,7 @@
 #include "analysis/theory/enskog.hpp"
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/paper/figure.hpp"
+#include "engine/initial.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -30,7 +31,7 @@ using Boxes = std::vector<const MeanSeries*>;
 double relative_box(const MeanSeries& series) {
   const double critical =
       2 * std::numbers::pi * analysis::lengths({.e = series.e, .n = series.n}).transverse;
-  return std::cbrt(static_cast<double>(series.particles) / series.n) / critical;
+  return engine::box_side(series.n, static_cast<std::uint32_t>(series.particles), 3) / critical;
 }
 
 // The gas of which there are most boxes, small ones first; nothing unless they lie on both sides.

@@ -171,8 +171,7 @@ TEST_CASE("averages: printed intervals cover as they say, for groups of three of
     intervals += difference <= mean->half_interval;
   }
   // Binomial, 67 times: 0.683 has a deviation of 0.057, 0.95 of 0.027; three of them, so a sound
-  // interval fails once in some 400. A bare standard error of three covers 0.58, 95 % by a
-  // bootstrap 0.75.
+  // interval fails once in some 400. A bare standard error of three covers 0.58.
   CHECK(bars / double(groups) == doctest::Approx(0.683).epsilon(3 * 0.057 / 0.683));
   CHECK(intervals / double(groups) > 0.95 - 3 * 0.027);
 }
