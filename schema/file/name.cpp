@@ -54,7 +54,7 @@ std::filesystem::path resolved(const std::filesystem::path& name) {
     unreachable(name, errno);
   } else if (!name.has_filename()) {
     refuse(name, "names a folder");
-  } else if (lstat(name.c_str(), &info) == 0) {
+  } else if (lstat(name.c_str(), &info) == 0 && S_ISLNK(info.st_mode)) {  // else just made
     refuse(name, "is a link to a file that is not there");
   }
   std::error_code error;
