@@ -1,13 +1,33 @@
-// What can go wrong with a store. Each message names the file, what is wrong and what to do next.
+// What can go wrong with a store. Each message names the file and what is wrong, and says what a
+// person can do about it. Which command of a program would help, only the program knows: it is told
+// the kind of remedy.
 #pragma once
 
+#include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace haff::schema {
 
+enum class Remedy {
+  none,          // or the message says it
+  name_a_store,  // another file was meant
+  plan,          // there is no store yet: make it
+  check,         // find out what is damaged
+  repair,        // rows are not as they were written: put them right
+  upgrade,       // bring the store forward to this program's version
+  back_up        // use a copy instead
+};
+
 // The store cannot be used as it was asked for.
 struct StoreError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit StoreError(const std::string& message, Remedy helps = Remedy::none,
+                      std::filesystem::path name = {})
+      : std::runtime_error(message), remedy(helps), store(std::move(name)) {}
+
+  Remedy remedy;
+  std::filesystem::path store;  // as the user named it; empty where the remedy needs none
 };
 
 // What the user named is not there, or is not a store: the user's input, not the store, is wrong.

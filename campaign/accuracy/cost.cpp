@@ -57,7 +57,8 @@ int cost(const schema::Reader& store, const CostRequest& request, std::ostream& 
   if (finished.empty() && request.json)
     throw std::runtime_error("no cooling run is done: there is nothing to say what accuracy costs");
   if (finished.empty()) {
-    fmt::print(report, "No cooling run is done. For what accuracy costs plan, for example\n{}\n",
+    fmt::print(report,
+               "No cooling run is done yet. To learn what accuracy costs, plan for example\n{}\n",
                pilot_grid);
     return 1;
   }

@@ -46,7 +46,7 @@ Advice advise(const Assessment& assessment, Advice wanted, Forecast& forecast) {
            each.unfinished == 0;
   };
   if (std::ranges::none_of(assessment.statistics, is_complete))
-    wanted.notes.emplace_back(R"(of no size each run has it: plan a larger "tau_max")");
+    wanted.notes.emplace_back(R"(at no size do all runs reach it: plan a larger "tau_max")");
   if (smaller_might_do(assessment, wanted.gas, wanted.quantity, wanted.target))
     wanted.notes.emplace_back("more runs of the largest gas may allow a smaller one");
   return wanted;

@@ -11,7 +11,8 @@
 
 namespace haff::campaign {
 
-// A row of cost.csv: whose, then whatever the row has. The same rows are printed as JSON.
+// A row of cost.csv: of which quantity and gas, then what the row has. The rows are also printed as
+// JSON.
 struct CostRow {
   const char* row;
   Quantity quantity;

@@ -26,7 +26,7 @@ std::string plan_for(SystematicEffect cause) {
     case SystematicEffect::equilibration:
       return R"(plan the same grid with "equilibrate": [50, 100])";
     case SystematicEffect::sampling:
-      return "needs two realizations, of a gas that has it in each, sampled often";
+      return "needs two realizations that both reach it, with frequent samples";
     case SystematicEffect::averaging:
       return "needs two realizations";
     case SystematicEffect::mesh:
@@ -115,10 +115,11 @@ void print_shifts(const Assessment& assessment, std::ostream& report) {
                each.error > 0 ? fmt::format("{:+.1f}", each.value / each.error) : no_value,
                each.change});
   if (!table.empty())
-    fmt::print(report,
-               "What more realizations do not remove: the shift of the mean. Within two or three "
-               "of its\nerrors it is not seen, and no larger than about that.\n\n{}\n",
-               table.text());
+    fmt::print(
+        report,
+        "What more realizations do not remove: the shift of the mean. A shift within two "
+        "or three of its\nerrors is not significant, and at most about as large as these.\n\n{}\n",
+        table.text());
 }
 
 std::vector<Quantity> quantities_in(const Assessment& assessment) {
@@ -153,8 +154,8 @@ void print_differences(const std::vector<Difference>& differences, std::ostream&
                apart(each)});
   if (!table.empty())
     fmt::print(report,
-               "Differences of gases that started from the same states, seed by seed: what chance "
-               "does to both\nalike is not in their error.\n\n{}\n",
+               "Differences of gases that started from the same states, seed by seed: the noise "
+               "that both share\nis not part of their error.\n\n{}\n",
                table.text());
 }
 
@@ -226,8 +227,9 @@ void print_unanswered(const Assessment& assessment, const std::vector<CostTarget
     fmt::print(report, "{}: {}\n\n",
                asked.quantity ? describe(*asked.quantity) : name(asked.measure),
                std::ranges::any_of(assessment.statistics, meant)
-                   ? "its error is not known; it takes two realizations"
-                   : "not usual of these gases; say at which tau, as in ln_temperature@50=0.01");
+                   ? "its error is not known; that takes two realizations"
+                   : "not among the usual quantities of these gases; say at which tau, as in "
+                     "ln_temperature@50=0.01");
   }
 }
 

@@ -35,7 +35,7 @@ struct TargetProgress {
   double cpu_seconds = 0;          // that those not yet planned will take
   double spent_cpu_seconds = 0;    // on those done, with equilibrations
   double pending_cpu_seconds = 0;  // that those planned still will
-  std::optional<schema::Prediction> forecast = {};  // of all, once the pilots are done
+  std::optional<schema::CostPrediction> forecast = {};  // of all, once the pilots are done
 
   double cpu_seconds_to_come() const { return pending_cpu_seconds + cpu_seconds; }
 };

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "campaign/base/process/signals.hpp"
+#include "campaign/base/text/error_text.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::campaign {
@@ -182,7 +183,7 @@ void copy_to_node(const fs::path& shard, const fs::path& working) {
 }
 
 // A shard that an older program has written is brought forward. No one else knows of the copy, so
-// that the leases in it are nobody's.
+// that no process holds the leases in it.
 void bring_forward(const fs::path& working) {
   std::vector<schema::Lease> leases;
   for (const schema::RunningJob& job : schema::Reader(working).running())
@@ -270,7 +271,7 @@ class Task {
     try {
       put_back(working_, shard_, claimed_);
     } catch (const std::exception& error) {
-      spdlog::warn("{} could not be put back: {}", shard_.string(), error.what());
+      spdlog::warn("{} could not be put back: {}", shard_.string(), error_text(error));
     }
   }
 

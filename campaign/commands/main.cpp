@@ -11,6 +11,7 @@
 #include "campaign/base/output/output.hpp"
 #include "campaign/base/process/exit_code.hpp"
 #include "campaign/base/process/signals.hpp"
+#include "campaign/base/text/error_text.hpp"
 #include "campaign/base/text/printable.hpp"
 #include "campaign/commands/command_line.hpp"
 #include "campaign/commands/json_output.hpp"
@@ -142,8 +143,9 @@ int perform(const CommandLine& line) try {
   return std::visit(CommandDispatcher{line}, line.command);
 } catch (const std::exception& error) {
   const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-  const std::string message =
-      no_memory ? "no memory is left; close other programs or run fewer workers" : error.what();
+  const std::string message = no_memory
+                                  ? "no memory is left; close other programs or run fewer workers"
+                                  : error_text(error);
   const int exit_code = exit_code_of(error);
   if (line.json)
     complain_lines(error_json(message, exit_code));

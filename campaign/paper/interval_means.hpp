@@ -8,7 +8,7 @@
 
 namespace haff::campaign {
 
-// How long a_2 near the Gaussian remembers: 1.94 in tau (tests/campaign/accuracy/cost.cpp).
+// How long a_2 near the Gaussian remembers: 1.94 in tau (tests/campaign/accuracy/assessment.cpp).
 inline constexpr double a2_correlation_time = 1.94;
 
 enum class RunValue { a2, gamma_ratio };

@@ -13,7 +13,7 @@ namespace haff::campaign {
 struct Explanation {
   schema::JobRow row;
   // Sentences, each of one line.
-  std::vector<std::string> where;      // its status, and who or what holds it
+  std::vector<std::string> where;      // its status, and what holds it
   std::vector<std::string> waits_for;  // empty: for nothing
   std::vector<std::string> tried;
   std::vector<std::string> next;  // what the program will do, or the user can

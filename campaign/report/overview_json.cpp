@@ -69,7 +69,7 @@ ordered_json shard_json(const ShardStatus& each) {
           {"slurm", each.slurm.empty() ? ordered_json(nullptr) : ordered_json(each.slurm)}};
 }
 
-ordered_json prediction_json(const std::optional<schema::Prediction>& prediction) {
+ordered_json prediction_json(const std::optional<schema::CostPrediction>& prediction) {
   if (!prediction) return nullptr;
   return {{"realizations", prediction->realizations}, {"cpu_seconds", prediction->cpu_seconds}};
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "campaign/base/process/signals.hpp"
+#include "campaign/base/text/error_text.hpp"
 #include "campaign/report/page.hpp"
 #include "schema/store/averaged_tables.hpp"
 #include "schema/store/store.hpp"
@@ -93,7 +94,7 @@ class ReportServer {
           try {
             std::rethrow_exception(std::move(thrown));
           } catch (const std::exception& error) {
-            answer.set_content(error.what(), "text/plain; charset=utf-8");
+            answer.set_content(error_text(error), "text/plain; charset=utf-8");
           }
         });
     offer("/", page_, "text/html; charset=utf-8",

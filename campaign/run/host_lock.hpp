@@ -24,7 +24,7 @@ class HostLock {
  public:
   // How long to wait for another user: most commands take seconds.
   static constexpr std::chrono::milliseconds usual_patience{10'000};
-  // The same where nobody could give the command again.
+  // The same where no person is there to give the command again.
   static constexpr std::chrono::milliseconds unattended_patience{600'000};
 
   // Takes the lock for this process, unless the store is on a local disk. A reader that cannot

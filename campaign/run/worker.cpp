@@ -14,6 +14,7 @@
 #include "campaign/base/process/signals.hpp"
 #include "campaign/base/process/version.hpp"
 #include "campaign/base/process/would_fail_again.hpp"
+#include "campaign/base/text/error_text.hpp"
 #include "campaign/base/text/job_text.hpp"
 #include "campaign/job/attempt.hpp"
 #include "campaign/job/cooling.hpp"
@@ -74,7 +75,7 @@ std::optional<Failure> failure_of(Attempt& attempt, const Reporter& reporter) {
   } catch (const schema::DamagedFile&) {
     throw;
   } catch (const schema::Damage& damage) {
-    why = damage.what();
+    why = error_text(damage);
   } catch (const schema::StoreError&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -159,10 +160,10 @@ int work(const std::filesystem::path& path, int report_descriptor, std::optional
   } catch (const schema::Locked& error) {
     // Asked to stop while another process keeps the store: the job is taken back by the next run.
     if (stop_signal() != 0) return worker_was_stopped;
-    reporter.send(LogReport{Level::error, error.what()});
+    reporter.send(LogReport{Level::error, error_text(error)});
     return worker_cannot_use_store;
   } catch (const schema::StoreError& error) {
-    reporter.send(LogReport{Level::error, error.what()});
+    reporter.send(LogReport{Level::error, error_text(error)});
     return worker_cannot_use_store;
   }
 }

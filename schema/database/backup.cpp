@@ -18,7 +18,7 @@ namespace haff::schema {
 
 namespace {
 
-// Who writes the store while the copy is to begin is waited for.
+// A process that writes the store when the copy is to begin is waited for.
 void copy(SQLite::Database& from, SQLite::Database& to) {
   constexpr std::chrono::milliseconds pause{20};
   constexpr int all_pages = -1;
@@ -33,8 +33,8 @@ void copy(SQLite::Database& from, SQLite::Database& to) {
   }
 }
 
-// Their workers know nothing of the copy: in it nobody holds them. A job whose row is damaged stays
-// as it is, and known as that. A copy of an older version has no digests.
+// Their workers know nothing of the copy: no process holds them in it. A job whose row is damaged
+// stays as it is, and known as that. A copy of an older version has no digests.
 void give_back_running_jobs(SQLite::Database& copy) {
   const bool has_digests = copy.tableExists("digests");
   Digests digests(copy);
@@ -68,10 +68,9 @@ void give_back_running_jobs(SQLite::Database& copy) {
 void must_be_sound(SQLite::Database& copy, const std::filesystem::path& store) {
   const std::string found = copy.execAndGet("PRAGMA integrity_check(1)").getString();
   if (found != "ok")
-    throw DamagedFile(
-        store.string() + ": is damaged (" + found +
-        "), and a copy of it would be; no backup was made. See: campaign verify --store " +
-        store.string());
+    throw DamagedFile(store.string() + ": is damaged (" + found +
+                          "), and a copy of it would be; no backup was made",
+                      Remedy::check, store);
 }
 
 [[noreturn]] void exists_already(const std::filesystem::path& to) {

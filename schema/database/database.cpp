@@ -23,10 +23,6 @@ constexpr int longest_row = 4 * static_cast<int>(chunk_bytes);
 constexpr const char* log_is_open = "UPDATE log SET is_open = 1 WHERE is_open = 0";
 constexpr const char* log_is_closed = "UPDATE log SET is_open = 0 WHERE is_open = 1";
 
-std::string plan_first(const std::filesystem::path& path) {
-  return "; make it with: campaign plan GRID.json --store " + path.string();
-}
-
 bool has_log(const std::filesystem::path& file) {
   std::error_code none;
   const auto log = beside(file, "-wal");
@@ -55,12 +51,12 @@ std::string mode(SQLite::Database& sqlite) {
   return sqlite.execAndGet("PRAGMA journal_mode").getString();
 }
 
-// A store may come from somebody else: what SQLite offers against a crafted file is switched on.
+// A store may come from another person: what SQLite offers against a crafted file is switched on.
 // The schema itself is compared with ours before anything else is read (versions.hpp).
 //
 // Not TRUSTED_SCHEMA = 0: SQLite 3.40 counts its own JSON functions, which our constraints and
 // views use, among the unsafe ones, and opens no store then. What it would forbid, functions with
-// side effects in a view of somebody else's, is not there: no extension is loaded, no function of
+// side effects in a view of another's, is not there: no extension is loaded, no function of
 // ours registered, and the tokenizers of FTS3 stay closed.
 void be_careful(SQLite::Database& sqlite) {
   sqlite3* handle = sqlite.getHandle();
@@ -141,7 +137,7 @@ std::string write_ahead(SQLite::Database& sqlite) {
 
 }  // namespace
 
-// Whatever changes when somebody writes the file.
+// What changes when the file is written.
 struct Database::Stamp {
   explicit Stamp(const std::filesystem::path& file) { stat(file.c_str(), &info); }
 
@@ -200,8 +196,8 @@ void Database::open_to_read() {
     open_to_observe();
   }
   if (is_empty(*sqlite_))
-    throw NameError(path_.string() + ": is empty" + plan_first(path_) +
-                    " (a plan that was cut off leaves such a file)");
+    throw NameError(path_.string() + ": is empty (a plan that was cut off leaves such a file)",
+                    Remedy::plan, path_);
   must_be_store(*sqlite_, path_);
   const int version = version_of(*sqlite_);
   const auto known = scripts().size();
@@ -238,8 +234,8 @@ void Database::open_to_observe() {
     const bool asks_for_log = (error.getErrorCode() & 0xff) == SQLITE_CANTOPEN && !has_log(file_);
     if (!asks_for_log) throw;
   }
-  // Prepared for a log that is not there: nobody writes it now. It is read without locks, and
-  // before() and after() look whether somebody has begun to.
+  // Prepared for a log that is not there: no process writes it now. It is read without locks, and
+  // before() and after() look whether a process has begun to.
   forget_trouble();
   unlocked_ = std::make_unique<const Stamp>(file_);
   sqlite_ = connection(immutable_uri(file_), SQLite::OPEN_READONLY | SQLite::OPEN_URI,
@@ -255,7 +251,7 @@ void Database::open_to_write(Access access) {
     throw StoreError(path_.string() + ": may not be written" + in_the_way(path_));
   const bool is_new = is_empty(*sqlite_);
   if (is_new && access != Access::create)
-    throw NameError(path_.string() + ": is empty" + plan_first(path_));
+    throw NameError(path_.string() + ": is empty", Remedy::plan, path_);
   const int version = version_of(*sqlite_);
   const auto known = static_cast<int>(scripts().size());
   if (!is_new) {
@@ -267,9 +263,8 @@ void Database::open_to_write(Access access) {
     bring_forward();
   else if (version < known && access != Access::upgrade)
     throw StoreError(path_.string() + ": is of an older version (" + std::to_string(version) +
-                     ", this program's is " + std::to_string(known) +
-                     ") and can only be read; bring it forward with: campaign upgrade --store " +
-                     path_.string());
+                         ", this program's is " + std::to_string(known) + ") and can only be read",
+                     Remedy::upgrade, path_);
   writes_ = true;
   file_identity_ = identity_of(file_);
   // The log is copied into the file by copy_log() alone.

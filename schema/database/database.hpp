@@ -56,13 +56,13 @@ class Database {
   void bring_forward(const std::function<void()>& afterwards = {});
 
   // From here on many processes may write while others read, until the last that writes closes the
-  // log. Waits for those who are reading.
+  // log. Waits for processes that are reading.
   void open_log();
   // Copies what the log holds into the file, so that the log can begin anew. Only the process that
-  // opened the log does it, and holds the write lock meanwhile: no commit, and nobody else's
-  // copying, may come in between (schema/README.md, "The WAL-reset bug").
+  // opened the log does it, and holds the write lock meanwhile: no commit, and no other
+  // process's copying, may come in between (schema/README.md, "The WAL-reset bug").
   LogSize copy_log();
-  // Back to one plain file, if nobody else uses the store. False if somebody does.
+  // Back to one plain file, if no other process uses the store. False if one does.
   bool close_log(std::chrono::milliseconds patience = {});
   // What has happened to the file at the store's path, if it is no longer the one that is open.
   std::optional<std::string> displaced() const;
@@ -91,6 +91,8 @@ class Database {
       }
     } catch (const SQLite::Exception& error) {
       raise(path_, error);
+    } catch (const Altered& altered) {
+      throw Damage(path_.string() + ": " + altered.what(), Remedy::repair, path_);
     } catch (const BadValue& bad) {
       throw Damage(path_.string() + ": " + bad.what());
     }

@@ -86,8 +86,8 @@ bool is_empty(SQLite::Database& sqlite) {
 
 void must_be_store(SQLite::Database& sqlite, const std::filesystem::path& name) {
   if (number(sqlite, "PRAGMA application_id") != application_id)
-    throw NameError(name.string() +
-                    ": is the SQLite file of another program; name a store with --store FILE");
+    throw NameError(name.string() + ": is the SQLite file of another program",
+                    Remedy::name_a_store);
 }
 
 void must_not_be_newer(int version, std::size_t known, const std::filesystem::path& name) {

@@ -159,12 +159,12 @@ std::optional<std::uint64_t> Digests::stored(std::int64_t job_id, Part part) {
 void Digests::must_match(std::int64_t job_id, Part part) {
   const auto written = stored(job_id, part);
   if (written && *written != present(job_id, part))
-    throw BadValue("job " + std::to_string(job_id) + ": " +
-                   (part == Part::jobs
-                        ? "its row of the table jobs is not as it was"
-                        : std::string("its ") + name(part) + " are not as they were") +
-                   " written, as the digest shows: a bit has flipped, or another program has "
-                   "changed something. See: campaign verify --repair");
+    throw Altered("job " + std::to_string(job_id) + ": " +
+                  (part == Part::jobs
+                       ? "its row of the table jobs is not as it was"
+                       : std::string("its ") + name(part) + " are not as they were") +
+                  " written, as the digest shows: a bit has flipped, or another program has "
+                  "changed something");
   if (part == Part::jobs) checked_.insert(job_id);
 }
 
@@ -208,8 +208,7 @@ Digests::Row& Digests::row(std::int64_t job_id) {
     const InUse in_use(*read_);
     read_->bind(1, job_id);
     if (!read_->executeStep())
-      throw BadValue("job " + std::to_string(job_id) +
-                     ": its digests are gone. See: campaign verify --repair");
+      throw Altered("job " + std::to_string(job_id) + ": its digests are gone");
     for (std::size_t k = 0; k < part_count; ++k)
       if (const auto value = read_->getColumn(static_cast<int>(k)); !value.isNull())
         row[k] = static_cast<std::uint64_t>(value.getInt64());
@@ -253,9 +252,9 @@ void Digests::drop() noexcept {
 
 void Digests::must_match_table(const std::string& table) {
   if (matches(table) == false)
-    throw BadValue("the table " + table +
-                   " is not as it was written, as its digest shows: a bit has flipped, or another "
-                   "program has changed it. See: campaign verify --repair");
+    throw Altered("the table " + table +
+                  " is not as it was written, as its digest shows: a bit has flipped, or another "
+                  "program has changed it");
   checked_tables_.insert(table);
 }
 

@@ -77,7 +77,7 @@ class Digests {
   std::optional<std::uint64_t> stored(std::int64_t job_id, Part part);
   // The digest of the rows as they are.
   std::uint64_t present(std::int64_t job_id, Part part);
-  // Throws BadValue if the two differ.
+  // Throws Altered if the two differ.
   void must_match(std::int64_t job_id, Part part);
   // The same of a table as a whole. Nothing: it has no digest.
   std::optional<bool> matches(const std::string& table);

@@ -7,7 +7,7 @@
 //  * Only the store's own files are deleted. The rollback journal of a transaction over several
 //    databases names a further file, the super-journal, which SQLite deletes after the rollback. A
 //    store is always alone: a journal that names such a file was not written by this program, and
-//    the file is somebody else's. It is neither opened nor deleted.
+//    the file is not the store's. It is neither opened nor deleted.
 //
 // All else is left to the VFS that was SQLite's default when the first store was opened.
 #pragma once

@@ -28,7 +28,7 @@ const char* kind_of(mode_t mode) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& name, const std::string& why) {
-  throw NameError(name.string() + ": " + why + "; name a store with --store FILE");
+  throw NameError(name.string() + ": " + why, Remedy::name_a_store);
 }
 
 [[noreturn]] void unreachable(const std::filesystem::path& name, int error) {
@@ -39,14 +39,10 @@ const char* kind_of(mode_t mode) {
   refuse(name, "cannot be a store (" + reason + ")");
 }
 
-std::string plan_first(const std::filesystem::path& name) {
-  return "; make it with: campaign plan GRID.json --store " + name.string();
-}
-
 }  // namespace
 
 std::filesystem::path resolved(const std::filesystem::path& name) {
-  if (name.empty()) throw NameError("the name of the store is empty; give a file to --store");
+  if (name.empty()) throw NameError("the name of the store is empty", Remedy::name_a_store);
   struct stat info {};
   if (stat(name.c_str(), &info) == 0) {
     if (!S_ISREG(info.st_mode)) refuse(name, std::string("is ") + kind_of(info.st_mode));
@@ -72,16 +68,17 @@ std::filesystem::path resolved(const std::filesystem::path& name) {
 
 void must_exist(const std::filesystem::path& name, const std::filesystem::path& file) {
   if (!identity_of(file))
-    throw NameError(name.string() + ": there is no such store" + plan_first(name));
+    throw NameError(name.string() + ": there is no such store", Remedy::plan, name);
 }
 
 void must_have_one_name(const std::filesystem::path& name, const std::filesystem::path& file) {
   struct stat info {};
   if (stat(file.c_str(), &info) == 0 && info.st_nlink > 1)
-    throw StoreError(name.string() + ": has " + std::to_string(info.st_nlink) +
-                     " names (hard links), and each would get a log of its own; write to a copy "
-                     "that has one: campaign backup FILE --store " +
-                     name.string());
+    throw StoreError(
+        name.string() + ": has " + std::to_string(info.st_nlink) +
+            " names (hard links), and each would get a log of its own; write to a copy "
+            "that has one",
+        Remedy::back_up, name);
 }
 
 void make(const std::filesystem::path& name, const std::filesystem::path& file) {

@@ -100,10 +100,10 @@ std::string advice(int error) {
 [[noreturn]] void foreign_journal(const std::filesystem::path& store, const Trouble& trouble) {
   throw StoreError(
       store.string() + ": the rollback journal beside it names another file, " + trouble.file +
-      ", to be deleted. This program never writes such a journal, and the file was left alone. "
-      "If the store came from somebody else, delete " +
-      store.string() + "-journal, then look at the store with: campaign verify --store " +
-      store.string());
+          ", to be deleted. This program never writes such a journal, and the file was left alone. "
+          "If the store came from another person, delete " +
+          store.string() + "-journal, then check the store",
+      Remedy::check, store);
 }
 
 [[noreturn]] void full(const std::filesystem::path& store, const Trouble& trouble) {
@@ -234,12 +234,12 @@ void raise(const std::filesystem::path& store, const SQLite::Exception& error) {
     case SQLITE_INTERRUPT:
       throw Unavailable(file + ": what was asked of it was stopped by a signal");
     case SQLITE_CORRUPT:
-      throw DamagedFile(file + ": is damaged (" + said + "); see: campaign verify --store " + file);
+      throw DamagedFile(file + ": is damaged (" + said + ")", Remedy::check, store);
     case SQLITE_NOTADB:
       if (bears_our_mark(store))
         throw DamagedFile(file +
                           ": is damaged: its first page is no longer that of an SQLite file");
-      throw NameError(file + ": is not an SQLite file; name a store with --store FILE");
+      throw NameError(file + ": is not an SQLite file", Remedy::name_a_store);
     case SQLITE_READONLY:
       if (error.getExtendedErrorCode() == SQLITE_READONLY_ROLLBACK)
         throw Unavailable(file +

@@ -16,18 +16,18 @@ namespace haff::schema {
 inline constexpr std::size_t fewest_pilots = 5;
 
 // What a target was expected to take when its pilot runs were done.
-struct Prediction {
+struct CostPrediction {
   std::size_t realizations = 0;  // in all, pilot runs included
   double cpu_seconds = 0;        // of them all, equilibrations included [s]
 };
 
 struct Target {
-  std::string series;                         // identity of its jobs, without the seed
-  std::string quantity;                       // a2, a3, a4, gamma_ratio or tau_c
-  double tau_from = 0, tau_to = 0;            // window of the mean; 0, 0 for tau_c
-  double se = 0;                              // standard error to reach
-  std::vector<std::uint64_t> pilots = {};     // seeds the interval rests on
-  std::optional<Prediction> prediction = {};  // for this standard error
+  std::string series;                             // identity of its jobs, without the seed
+  std::string quantity;                           // a2, a3, a4, gamma_ratio or tau_c
+  double tau_from = 0, tau_to = 0;                // window of the mean; 0, 0 for tau_c
+  double se = 0;                                  // standard error to reach
+  std::vector<std::uint64_t> pilots = {};         // seeds the interval rests on
+  std::optional<CostPrediction> prediction = {};  // for this standard error
 };
 
 }  // namespace haff::schema

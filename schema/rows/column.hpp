@@ -20,6 +20,11 @@ struct BadValue : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// What is stored is not what was written, as a digest shows.
+struct Altered : BadValue {
+  using BadValue::BadValue;
+};
+
 // Whole numbers in JSON and in doubles are exact up to here.
 inline constexpr std::int64_t largest_whole = std::int64_t{1} << 53;
 

@@ -1,4 +1,4 @@
-// Who works on a job: claimed, given back, failed, reopened.
+// Which worker holds a job: claiming, giving back, failing, reopening.
 #include <limits>
 
 #include "schema/database/database.hpp"

@@ -115,7 +115,7 @@ void Store::add(const std::vector<Target>& targets) {
   });
 }
 
-void Store::predict(const Target& target, const Prediction& prediction) {
+void Store::predict(const Target& target, const CostPrediction& prediction) {
   database().transaction([&] {
     database().digests().must_match_table("target_predictions");
     SQLite::Statement statement(database().sqlite(), R"(

@@ -111,8 +111,8 @@ class Reader {
   DigestsOfJob digests(std::int64_t job_id) const;
   // Tables that are digested as a whole and are not as they were written.
   std::vector<std::string> wrong_tables() const;
-  // For whoever reads the views that average: throws Damage, naming the jobs, unless these parts of
-  // all finished cooling jobs are as they were written.
+  // For programs that read the views that average: throws Damage, naming the jobs, unless these
+  // parts of all finished cooling jobs are as they were written.
   void must_match_digests(const std::vector<Part>& parts) const;
   // The samples as they are, whatever their digest says: to find out what is wrong with them.
   std::vector<Sample> samples_unchecked(std::int64_t job_id) const;

@@ -277,7 +277,7 @@ Arrival Store::take_over(const Reader& other, std::int64_t job_id, const std::st
       Arrival arrival;
       for (const Part part : written_once) {
         arrival.rows += add_and_compare_rows(ours, theirs, part);
-        // Rows that nobody vouches for are not vouched for here.
+        // Rows without a digest there get none here.
         if (!other.database().digests().stored(job_id, part)) digests.forget(our_id, part);
       }
       const double our_tau = kept_tau(sqlite, here), their_tau = kept_tau(theirs.sqlite(), there);

@@ -49,9 +49,9 @@ class Store : public Reader {
   // run: its worker is a program of the old version. Returns the version that it was of.
   static int upgrade(const std::filesystem::path& path, const std::vector<Lease>& dead);
 
-  // From here on many processes may write while others read. Who opened the log calls copy_log()
-  // now and then, or it grows; close_log() makes one plain file of the store again, and returns
-  // false if somebody else still uses it.
+  // From here on many processes may write while others read. The process that opened the log calls
+  // copy_log() now and then, or it grows; close_log() makes one plain file of the store again, and
+  // returns false if another process still uses it.
   void open_log();
   LogSize copy_log();
   bool close_log(std::chrono::milliseconds patience);
@@ -73,7 +73,7 @@ class Store : public Reader {
   void add(const std::vector<Target>& targets);
 
   // Keep what a target of the store is expected to take. What was expected first stays.
-  void predict(const Target& target, const Prediction& prediction);
+  void predict(const Target& target, const CostPrediction& prediction);
 
   // Wait for locks of other processes only while this function, asked some times a second, says
   // so, and never longer than busy_timeout. What waits longer throws Locked.
@@ -131,7 +131,7 @@ class Store : public Reader {
   // turns it back, and says which value was changed, from what, to what. Nothing, and nothing done,
   // if no single bit does.
   std::optional<Difference> turn_bit_back(std::int64_t job_id);
-  // For a job whose rows contradict themselves, and that nobody holds: drops the rows after tau,
+  // For a job whose rows contradict each other, and that no worker holds: drops the rows after tau,
   // with the results. What is left is digested as it is. Returns how many samples were dropped.
   std::int64_t drop_rows_after(std::int64_t job_id, double tau);
 

@@ -1,4 +1,4 @@
-// What is planned, who works on it, and what a worker commits.
+// What is planned, which process works on it, and what a worker commits.
 #pragma once
 
 #include <cstdint>

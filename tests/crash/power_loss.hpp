@@ -28,7 +28,7 @@ enum class Fate {
   some_pages,    // any, whole pages of 4096 bytes
   some_sectors,  // any, sectors of 512 bytes
   zeros,         // file sizes arrived, of the contents only a part
-  junk,          // some sectors hold what nobody wrote
+  junk,          // some sectors hold what was never written
   store_first,   // all to the store, few to its log
   log_first,     // the reverse
 };

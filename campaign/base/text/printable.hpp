@@ -1,4 +1,4 @@
-// Text from elsewhere, made safe to show. A store may have been sent by somebody else: its text
+// Text from elsewhere, made safe to show. A store may come from another person: its text
 // must not move the cursor of a terminal, end a line of a script, or become a tag of a page.
 #pragma once
 

@@ -11,6 +11,7 @@
 #include "campaign/base/output/output.hpp"
 #include "campaign/base/process/exit_code.hpp"
 #include "campaign/base/text/command_text.hpp"
+#include "campaign/base/text/error_text.hpp"
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/base/text/text_table.hpp"
 #include "campaign/cluster/merge.hpp"
@@ -37,7 +38,7 @@ std::vector<Result> merge_each(schema::Store& store,
     try {
       results.back().outcome = merge(store, path);
     } catch (const schema::StoreError& error) {
-      results.back().error = error.what();
+      results.back().error = error_text(error);
     }
   }
   return results;

@@ -11,6 +11,7 @@
 #include "campaign/base/output/output.hpp"
 #include "campaign/base/process/exit_code.hpp"
 #include "campaign/base/text/command_text.hpp"
+#include "campaign/base/text/error_text.hpp"
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/cluster/merge.hpp"
 #include "campaign/commands/json_output.hpp"
@@ -44,7 +45,7 @@ Brought bring_what_is_there(schema::Store& store, const fs::path& path) {
   try {
     return {.outcome = merge(store, path)};
   } catch (const schema::StoreError& error) {
-    return {.error = error.what()};
+    return {.error = error_text(error)};
   }
 }
 

@@ -14,6 +14,7 @@
 #include "campaign/base/process/exit_code.hpp"
 #include "campaign/base/text/command_text.hpp"
 #include "campaign/base/text/duration.hpp"
+#include "campaign/base/text/error_text.hpp"
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/cluster/merge.hpp"
 #include "campaign/cluster/split.hpp"
@@ -28,8 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-// How long sbatch may refuse a round that the job after another submits, where nobody could try
-// again.
+// How long sbatch may refuse a round that the job after another submits, where no person is there
+// to try again.
 constexpr std::chrono::seconds unattended_patience = 10min;
 
 std::chrono::seconds patience(const SubmitOptions& options) {
@@ -57,7 +58,7 @@ bool bring_home(schema::Store& store, const schema::Shard& shard) try {
 } catch (const schema::Unavailable&) {
   throw;
 } catch (const schema::StoreError& error) {
-  complain("campaign: {}; what it has not sent home is computed again\n", error.what());
+  complain("campaign: {}; what it has not sent home is computed again\n", error_text(error));
   store.recall(shard.name);
   return false;
 }
@@ -139,7 +140,7 @@ std::string expected_rounds(const ClusterOptions& options, double makespan) {
 int submit_round(schema::Store& store, const SubmitOptions& options, int number) {
   const ClusterOptions& cluster = options.cluster;
   Round round{.number = number, .shards = {}, .tasks_job = {}, .merge_job = {}};
-  // What is lent must be on record before, or nobody would know to whom.
+  // What is lent is recorded first; otherwise the store would not know to which shard.
   for (const WrittenShard& shard : planned_shards(store, cluster.tasks, cluster.folder))
     round.shards.push_back(shard.path);
   write_record(cluster.folder, round);

@@ -28,8 +28,8 @@ int write(const ReportOptions& options) {
 int serve(const ReportOptions& options) {
   note_stop_signals();
   serve_report(options.store, options.port, [&](const std::string& address) {
-    say("{}\nThis address is for you alone: who has it can read {}. Ctrl-C ends it.\n", address,
-        options.store.string());
+    say("{}\nThis address is for you alone: any browser that has it can read {}. Ctrl-C ends it.\n",
+        address, options.store.string());
     std::fflush(stdout);
   });
   return exit_complete;

@@ -18,6 +18,7 @@
 #include "campaign/base/process/version.hpp"
 #include "campaign/base/text/command_text.hpp"
 #include "campaign/base/text/duration.hpp"
+#include "campaign/base/text/error_text.hpp"
 #include "campaign/commands/run/status.hpp"
 #include "campaign/run/event_log.hpp"
 #include "campaign/run/on_finish.hpp"
@@ -67,7 +68,7 @@ void print_limits(const RunOptions& options, const RoundEnd& ended, int exit_cod
         duration_text(cpu_seconds_of_ended_children()), duration_text(*options.cpu_budget));
 }
 
-// Who still uses the store keeps its log.
+// A process that still uses the store keeps its log.
 void close_log(schema::Store& store) {
   constexpr std::chrono::milliseconds patience{1000};
   if (store.close_log(patience)) return;
@@ -95,9 +96,9 @@ int rescue(schema::Store& store, const std::string& what) {
     const std::filesystem::path log = saved.string() + "-log";
     if (std::filesystem::exists(name)) store.abandon_log(log);
     complain(
-        "What it held could not be saved ({}). Lost is all that this run computed, and what is in "
-        "no copy of yours. If {} is to be used as it is now, {} finds out whether it can be\n",
-        error.what(), name, command_text("verify", store.path()));
+        "Its contents could not be saved ({}): what this run computed is lost, and so is all that "
+        "you have no copy of. If {} is to be used as it is now, {} finds out whether it can be\n",
+        error_text(error), name, command_text("verify", store.path()));
   }
   return exit_failed;
 }
@@ -170,7 +171,7 @@ int run(const RunOptions& options) {
     store.wait_for_locks_while(may_wait_for_locks);
     exit_code = work_or_rescue(store, options, log);
   } catch (const std::exception& error) {
-    log.add("message", {{"level", "error"}, {"text", error.what()}});
+    log.add("message", {{"level", "error"}, {"text", error_text(error)}});
     announce_end(options, exit_failed, log);
     throw;
   }

@@ -59,7 +59,7 @@ bool is_finished(const JobRow& row) {
   return row.status == schema::Status::done || row.status == schema::Status::collapsed;
 }
 
-// So many of them, other ones each time: who looks at a few a day sees all of them some day.
+// So many of them, different ones each time: a few a day are all of them some day.
 void keep_some(std::vector<JobRow>& rows, double percent) {
   const auto kept =
       static_cast<std::size_t>(std::ceil(percent / 100 * static_cast<double>(rows.size())));

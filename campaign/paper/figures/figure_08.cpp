@@ -41,7 +41,7 @@ Curve slice(const VelocityField& gas, int k) {
   return curve;
 }
 
-// The store may be damaged, or made by somebody else: as many values as the layers are read from.
+// The store may be damaged, or made by another program: as many values as the layers are read from.
 void check(const schema::Field& field) {
   constexpr int most_cells = 1000;  // along an axis: more is no count of cells
   const bool counted = field.cells > 0 && field.cells <= most_cells && field.components == 3;

@@ -28,13 +28,18 @@ SQLite::Database plain(const std::filesystem::path& path) {
 }
 
 template <class Open>
-std::string refusal(Open open) {
+StoreError error_of(Open open) {
   try {
     open();
   } catch (const StoreError& error) {
-    return error.what();
+    return error;
   }
-  return "not refused";
+  return StoreError("not refused");
+}
+
+template <class Open>
+std::string refusal(Open open) {
+  return error_of(open).what();
 }
 
 }  // namespace
@@ -91,12 +96,11 @@ TEST_CASE("two processes may make a store at the same time") {
 TEST_CASE("a store that must be there is not made") {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";
-  const std::string message = path.string() +
-                              ": there is no such store; make it with: campaign plan GRID.json "
-                              "--store " +
-                              path.string();
+  const std::string message = path.string() + ": there is no such store";
   CHECK(refusal([&] { Store::open(path); }) == message);
   CHECK(refusal([&] { Reader{path}; }) == message);
+  CHECK(error_of([&] { Reader{path}; }).remedy == Remedy::plan);
+  CHECK(error_of([&] { Reader{path}; }).store == path);
   CHECK_FALSE(std::filesystem::exists(path));
 }
 
@@ -112,7 +116,7 @@ TEST_CASE("an empty file becomes a store, but is none yet") {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";
   std::ofstream empty(path);
-  CHECK(refusal([&] { Reader{path}; }).starts_with(path.string() + ": is empty; make it with"));
+  CHECK(refusal([&] { Reader{path}; }).starts_with(path.string() + ": is empty"));
   Store::create(path);
   CHECK(Reader(path).jobs().empty());
 }
@@ -121,8 +125,7 @@ TEST_CASE("a file that is not SQLite's is refused and left alone") {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";
   std::ofstream(path) << std::string(5000, 'x');
-  const std::string message =
-      path.string() + ": is not an SQLite file; name a store with --store FILE";
+  const std::string message = path.string() + ": is not an SQLite file";
   CHECK(refusal([&] { Store::create(path); }) == message);
   CHECK(refusal([&] { Reader{path}; }) == message);
   CHECK(contents(path) == std::string(5000, 'x'));
@@ -133,8 +136,7 @@ TEST_CASE("another program's SQLite file is refused and left alone") {
   const auto path = folder / "a.db";
   plain(path).exec("CREATE TABLE songs (title TEXT)");
   const std::string before = contents(path);
-  const std::string message =
-      path.string() + ": is the SQLite file of another program; name a store with --store FILE";
+  const std::string message = path.string() + ": is the SQLite file of another program";
   CHECK(refusal([&] { Store::create(path); }) == message);
   CHECK(refusal([&] { Store::open(path); }) == message);
   CHECK(refusal([&] { Reader{path}; }) == message);
@@ -203,10 +205,11 @@ TEST_CASE("a store of the first version is read as it is, and brought forward wh
   }
   CHECK(contents(path) == before);
   CHECK_FALSE(std::filesystem::exists(folder / "a.db-wal"));
-  const std::string refused = refusal([&] { Store::open(path); });
-  CHECK(refused.find("is of an older version (1, this program's is " +
-                     std::to_string(newest_version())) != std::string::npos);
-  CHECK(refused.ends_with("bring it forward with: campaign upgrade --store " + path.string()));
+  const StoreError refused = error_of([&] { Store::open(path); });
+  CHECK(std::string(refused.what())
+            .find("is of an older version (1, this program's is " +
+                  std::to_string(newest_version())) != std::string::npos);
+  CHECK(refused.remedy == Remedy::upgrade);
   CHECK(contents(path) == before);
 
   CHECK(Store::upgrade(path, {}) == 1);

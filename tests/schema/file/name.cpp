@@ -73,17 +73,16 @@ TEST_CASE("two slashes at the beginning are one") {
 
 TEST_CASE("what can be no store is refused by its name, and nothing is left behind") {
   const Here here;
-  const std::string next = "; name a store with --store FILE";
   std::filesystem::create_directory("folder");
   REQUIRE(mkfifo("pipe", 0600) == 0);
   std::filesystem::create_symlink("nowhere", "link");
-  CHECK(refusal("") == "the name of the store is empty; give a file to --store");
-  CHECK(refusal("c/") == "c/: names a folder" + next);
-  CHECK(refusal("folder") == "folder: is a folder" + next);
-  CHECK(refusal("folder/") == "folder/: is a folder" + next);
-  CHECK(refusal("pipe") == "pipe: is a pipe" + next);
-  CHECK(refusal("/dev/null") == "/dev/null: is a device" + next);
-  CHECK(refusal("link") == "link: is a link to a file that is not there" + next);
+  CHECK(refusal("") == "the name of the store is empty");
+  CHECK(refusal("c/") == "c/: names a folder");
+  CHECK(refusal("folder") == "folder: is a folder");
+  CHECK(refusal("folder/") == "folder/: is a folder");
+  CHECK(refusal("pipe") == "pipe: is a pipe");
+  CHECK(refusal("/dev/null") == "/dev/null: is a device");
+  CHECK(refusal("link") == "link: is a link to a file that is not there");
   CHECK(refusal("no/c.db").find("its folder") != std::string::npos);
   CHECK(refusal(std::string(200, 'x') + std::string(200, 'y')).find("File name too long") !=
         std::string::npos);
