@@ -74,7 +74,8 @@ std::string table_text(const std::vector<Comparison>& table) {
 }
 
 std::string figure_text(const FigureEntry& figure) {
-  // A broad picture has a row of its own; on a phone it scrolls rather than shrinks beyond half.
+  // A broad picture has a row of its own. On a phone pictures shrink to its width, so that nothing
+  // is cut off; a tap opens the picture alone, to be looked at in any size.
   constexpr int usual_width = 900;
   std::string text =
       fmt::format("<figure id=\"{}\"{}>\n<h3>{}</h3>\n", xml_escaped(figure.name),
@@ -83,9 +84,8 @@ std::string figure_text(const FigureEntry& figure) {
     text += fmt::format("<p class=\"absent\">{}</p>\n", xml_escaped(figure.caption));
   else
     text += fmt::format(
-        "<div class=\"wide\"><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" "
-        "style=\"min-width: {2}px; max-width: {3}px\"></a></div>\n",
-        figure.picture, xml_escaped(figure.title), figure.width / 2, figure.width * 3 / 2);
+        "<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" style=\"max-width: {2}px\"></a>\n",
+        figure.picture, xml_escaped(figure.title), figure.width * 3 / 2);
   text += "<figcaption>";
   // A PNG stands in for an SVG that could not be drawn, and has the caption in it.
   if (figure.picture.ends_with(".svg")) text += xml_escaped(figure.caption) + "\n";

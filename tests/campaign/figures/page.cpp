@@ -67,6 +67,8 @@ TEST_CASE("page: a broad picture has a row of its own") {
   };
   CHECK(count("class=\"broad\"", shown(1160)) == 1);
   CHECK(count("class=\"broad\"", shown(640)) == 0);
+  // On a narrow screen it shrinks to fit, so that nothing is cut off.
+  CHECK(count("style=\"min-width", shown(1160)) == 0);
 }
 
 TEST_CASE("page: what an earlier run has left is marked") {
