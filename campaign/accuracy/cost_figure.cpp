@@ -27,6 +27,7 @@ struct Grid {
   std::size_t panels = 0;
   std::size_t rows() const { return (panels + columns - 1) / columns; }
   bool is_full() const { return panels % columns == 0; }
+  bool is_lowest(std::size_t place) const { return place + columns >= panels; }  // of its column
   int width() const { return panel_width * static_cast<int>(columns); }
   int height() const { return panel_height * static_cast<int>(rows()) + room_for_caption; }
 
@@ -121,10 +122,16 @@ std::vector<const BiasEstimate*> seen_shifts(const Assessment& assessment, const
   return seen;
 }
 
+// The part of both axes that a panel's data take.
+struct Extent {
+  Reach time, error;
+};
+
 // The measured scatter of one series, the line of slope -1/2 through all its realizations, and its
 // floors.
 void add_series(const Assessment& assessment, const Statistics& each, const std::string& ink,
-                Reach& time, Reach& error, Panel& panel) {
+                Extent& extent, Panel& panel) {
+  auto& [time, error] = extent;
   Curve points{.name = "scatter", .particles = each.job.particles};
   points.look = Look::symbols;
   points.colour = ink;
@@ -140,7 +147,7 @@ void add_series(const Assessment& assessment, const Statistics& each, const std:
   error.include(each.error);
 
   constexpr double beyond = 100;  // what more CPU time would give
-  Curve line{.name = "-1/2", .particles = each.job.particles};
+  Curve line{.name = "-1/2", .particles = each.job.particles, .width = 0.9};
   line.colour = ink;
   line.x = {each.cpu_seconds, beyond * all};
   for (const double x : line.x) line.y.push_back(each.deviation * std::sqrt(each.cpu_seconds / x));
@@ -152,10 +159,11 @@ void add_series(const Assessment& assessment, const Statistics& each, const std:
   for (const BiasEstimate* shift : seen_shifts(assessment, each)) {
     const double size = std::abs(shift->value);
     const bool is_of_size = shift->cause == SystematicEffect::finite_size;
-    Curve floor{.name = name(shift->cause), .particles = each.job.particles};
+    // From where the data end, so that it crosses lines alone.
+    Curve floor{.name = name(shift->cause), .particles = each.job.particles, .width = 1.4};
     floor.look = is_of_size ? Look::dashed : Look::dotted;
     floor.colour = ink;
-    floor.x = line.x;
+    floor.x = {all, line.x.back()};
     floor.y = {size, size};
     error.include(size);
     panel.curves.push_back(floor);
@@ -164,6 +172,13 @@ void add_series(const Assessment& assessment, const Statistics& each, const std:
           fmt::format("set label '{}' at {:.8g}, {:.8g} right offset 0, 0.4 font ',9' tc rgb '{}'",
                       name(shift->cause), line.x.back(), size, ink));
   }
+}
+
+constexpr double room = 1.6;  // at the ends of axes, a factor
+
+// Tics of an axis, a hundred apart where ten would crowd: beyond seven decades.
+std::string powers_of_ten(double low, double high) {
+  return std::string(high / low > 1e7 ? "100" : "10") + " format '10^{%T}'";
 }
 
 // A line of the key for each size, whether or not the first panel has it.
@@ -177,26 +192,37 @@ void add_key(const Inks& inks, Panel& panel) {
 }
 
 Panel panel_of(const Assessment& assessment, const Members& members, const Inks& inks,
-               const Grid& grid, std::size_t place) {
+               const Grid& grid, std::size_t place, Reach& all_times) {
   const Quantity& quantity = members.front()->quantity;
   Panel panel{.name = name(quantity.measure),
-              .x = {.label = "CPU time [s]", .column = "cpu_seconds", .logarithmic = true},
+              .x = {.label = grid.is_lowest(place) ? "CPU time [s]" : "",
+                    .column = "cpu_seconds",
+                    .logarithmic = true},
               .y = {.label = label(quantity), .column = "error", .logarithmic = true},
               .legend = place == 0 ? grid.legend() : "none",
               .small = true,
               .frame = grid.frame(place)};
   if (place == 0) add_key(inks, panel);
-  Reach time, error;
+  Extent extent;
   for (const Statistics* each : one_each_size(members))
-    add_series(assessment, *each, inks.at(each->job.particles), time, error, panel);
-  constexpr double room = 1.6, room_for_legend = 30;
-  panel.x.low = time.low / room;
-  panel.x.high = time.high * room;
+    add_series(assessment, *each, inks.at(each->job.particles), extent, panel);
+  all_times.include(extent.time.low);
+  all_times.include(extent.time.high);
+  const Reach& error = extent.error;
+  constexpr double room_for_legend = 30;
   panel.y.low = error.low / (place == 0 && grid.is_full() ? room_for_legend : room);
   panel.y.high = error.high * room;
-  for (Axis* axis : {&panel.x, &panel.y})
-    axis->tics = *axis->high / *axis->low > 1e4 ? "100" : "10";
+  panel.y.tics = powers_of_ten(*panel.y.low, *panel.y.high);
   return panel;
+}
+
+// One axis of time for all panels, which can then be compared.
+void share_times(const Reach& times, std::vector<Panel>& panels) {
+  for (Panel& panel : panels) {
+    panel.x.low = times.low / room;
+    panel.x.high = times.high * room;
+    panel.x.tics = powers_of_ten(*panel.x.low, *panel.x.high);
+  }
 }
 
 // What a gas is besides its n and e: gases that differ in it alone are different pictures.
@@ -249,8 +275,10 @@ OutputFiles draw_cost(const Assessment& assessment, const std::filesystem::path&
     plot.width = grid.width();
     plot.height = grid.height();
     const Inks inks = inks_of(gas.quantities);
+    Reach times;
     for (const Members& members : gas.quantities)
-      plot.panels.push_back(panel_of(assessment, members, inks, grid, plot.panels.size()));
+      plot.panels.push_back(panel_of(assessment, members, inks, grid, plot.panels.size(), times));
+    share_times(times, plot.panels);
     const std::string e = gas.job.e ? restitution_text(*gas.job.e) : "none";
     const std::string others = other_properties(gas.job);
     plot.caption = fmt::format(

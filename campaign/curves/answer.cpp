@@ -361,6 +361,23 @@ void add_theory(const Topic& topic, const std::vector<GasCurve>& gases, Panel& p
         fmt::format("The direct simulation is left out beyond {} gases.", most_simulations));
 }
 
+// chi is in the lengths of theories with correlations, in Z, in collision rates, and in the time
+// that tau takes.
+bool takes_contact_value(const Curve& curve, const std::string& x) {
+  if (curve.source != Source::theory) return false;
+  constexpr std::array marks{"_energy_equation", "compressible", "_enskog", "collision_rate",
+                             "correlation_trace"};
+  return x == "time" || std::ranges::any_of(marks, [&](const char* mark) {
+           return curve.name.find(mark) != std::string::npos;
+         });
+}
+
+std::string contact_value_note(const Panel& panel) {
+  const bool any = std::ranges::any_of(
+      panel.curves, [&](const Curve& curve) { return takes_contact_value(curve, panel.x.column); });
+  return any ? " Theory: χ of Carnahan and Starling, of disks Henderson's." : "";
+}
+
 // ---- axes and captions ------------------------------------------------------------------------
 
 void check_logarithmic(const Panel& panel) {
@@ -521,8 +538,9 @@ Answer answer(const schema::Reader& store, const Question& question) {
   set_x_range(panel, panel.x);
   set_y_range(panel.curves, curves.all.size(), panel.y);
   const int width = place_legend(panel);
+  const std::string of_theory = contact_value_note(panel);
   result.plot = {.panels = {std::move(panel)},
-                 .caption = caption_of(question, topic, curves, names, styles.tone()),
+                 .caption = caption_of(question, topic, curves, names, styles.tone()) + of_theory,
                  .width = width};
   return result;
 }

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
-#include <utility>
+#include <vector>
 
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/base/text/text_table.hpp"
@@ -51,17 +50,22 @@ std::string provenance(const std::vector<MeanSeries>& series) {
   // One of e and n is common to all; of the other, those that share particles and realizations are
   // named together.
   const bool densities = series.front().n != series.back().n;
-  std::map<std::pair<std::int64_t, std::string>, std::string> groups;
+  struct Group {
+    std::string data, list;
+  };
+  std::vector<Group> groups;  // in the order of the curves
   for (const MeanSeries& s : series) {
-    std::string& list = groups[{s.particles, realizations_text(s)}];
+    const std::string data =
+        fmt::format("N = {}, {}", count_text(s.particles), realizations_text(s));
+    auto group = std::ranges::find(groups, data, &Group::data);
+    if (group == groups.end()) group = groups.insert(groups.end(), {data, ""});
+    std::string& list = group->list;
     list += (list.empty() ? (densities ? "n = " : "e = ") : ", ") +
             (densities ? density_text(s.n) : restitution_text(s.e));
   }
   std::string text = densities ? "e = " + restitution_text(series.front().e)
                                : "n = " + density_text(series.front().n);
-  for (const auto& [key, list] : groups) {
-    text += fmt::format("; {}: N = {}, {}", list, count_text(key.first), key.second);
-  }
+  for (const Group& group : groups) text += fmt::format("; {}: {}", group.list, group.data);
   return text + "." + versions_text(series);
 }
 
@@ -76,6 +80,10 @@ std::string coefficient_error_note(const std::vector<MeanSeries>& series) {
   return " Bars and bands: 68 % intervals of the mean (Student's t), at least those of Gaussian "
          "velocities." +
          dependence_note(series);
+}
+
+std::string contact_value_note() {
+  return " Theory: χ of Carnahan and Starling.";
 }
 
 }  // namespace haff::campaign

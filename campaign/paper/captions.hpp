@@ -23,4 +23,7 @@ std::string error_note(const std::vector<MeanSeries>& series);
 // Likewise of Laguerre coefficients, whose errors are never less than those of Gaussian velocities.
 std::string coefficient_error_note(const std::vector<MeanSeries>& series);
 
+// What theories with correlations take as the pair correlation at contact.
+std::string contact_value_note();
+
 }  // namespace haff::campaign

@@ -36,14 +36,15 @@ std::string in_quotes(std::string_view text) {
   return result + "'";
 }
 
-// Blanks that a line must not be broken at: around "=" and within a number.
+// Blanks that a line must not be broken at: around "=", within a number, and before "%".
 std::string bound(std::string_view text) {
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char before = i > 0 ? text[i - 1] : ' ';
     const char after = i + 1 < text.size() ? text[i + 1] : ' ';
-    const bool keep = before == '=' || after == '=' || (digit(before) && digit(after));
+    const bool keep =
+        before == '=' || after == '=' || (digit(before) && (digit(after) || after == '%'));
     result += text[i] == ' ' && keep ? std::string("\u00a0") : std::string(1, text[i]);
   }
   return result;
@@ -85,6 +86,13 @@ std::vector<std::size_t> shown_points(const Curve& curve, const Panel& panel) {
   std::vector<std::size_t> thinned;
   for (std::size_t i = 0; i < shown.size(); i += stride) thinned.push_back(shown[i]);
   return thinned;
+}
+
+// A frame of a row of panels leaves the caption its room, as the first panel's does; an inset lies
+// above it anyway.
+std::array<double, 4> above_caption(std::array<double, 4> frame, double axes_bottom) {
+  frame[2] = std::max(frame[2], axes_bottom);
+  return frame;
 }
 
 // With room for what stands right of the axes.
@@ -282,7 +290,9 @@ std::string gnuplot_script(const Plot& plot, PictureFormat format) {
   std::string blocks, panels;
   int count = 0;
   for (const Panel& panel : plot.panels) {
-    const auto frame = panel.frame.value_or(frame_beside(panel, first_frame));
+    const auto frame = !panel.frame  ? frame_beside(panel, first_frame)
+                       : panel.small ? *panel.frame
+                                     : above_caption(*panel.frame, first_frame[2]);
     panels += fmt::format(
         "set lmargin at screen {}\nset rmargin at screen {}\n"
         "set bmargin at screen {}\nset tmargin at screen {}\n",

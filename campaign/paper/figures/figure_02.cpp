@@ -51,7 +51,8 @@ Curve over_theory(Curve curve) {
 
 Panel ratios(const Curve& paper, const Curve& measured, double low, double high) {
   Panel inset{.name = "ratio",
-              .x = {.column = "two_gamma0",
+              .x = {.label = "2{/:Italic γ}_0",
+                    .column = "two_gamma0",
                     .logarithmic = true,
                     .low = low,
                     .high = high,
@@ -60,7 +61,7 @@ Panel ratios(const Curve& paper, const Curve& measured, double low, double high)
               .curves = {over_theory(paper), over_theory(measured)},
               .legend = "none",
               .small = true,
-              .frame = {{0.60, 0.94, 0.63, 0.94}}};
+              .frame = {{0.60, 0.94, 0.66, 0.95}}};
   const Range range = y_range(inset.curves);
   const double reach =
       1.25 * std::max({range.high - 1, 1 - range.low, 0.01});  // of one, to either side
@@ -147,7 +148,7 @@ std::optional<Plot> figure_02(const Averages& averages) {
   panel.y.high = range.high * room;
   panel.legend = "bottom left";
   return Plot{.panels = {panel, ratios(paper, measured, *panel.x.low, *panel.x.high)},
-              .caption = note(chosen)};
+              .caption = note(chosen) + contact_value_note()};
 }
 
 }  // namespace haff::campaign

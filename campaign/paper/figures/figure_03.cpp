@@ -1,12 +1,16 @@
 // Figure 3: the velocity distribution rho(c) at several tau through tau_c at e = 0.80, beside the
-// Gaussian exp(-c^2); as an inset the ratio of the two, where it is known to a fifth.
+// Gaussian exp(-c^2); as an inset the ratio of the two, where it is known to a fifth. Of the
+// Gaussian, too, the mean over a bin is taken there: at c = 3 it is 1.4 % more than its value in
+// the middle.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
+#include "analysis/observables/distribution.hpp"
 #include "analysis/theory/energy_equation.hpp"
 #include "campaign/paper/figure.hpp"
 
@@ -15,8 +19,9 @@ namespace {
 
 constexpr double restitution = 0.80;
 constexpr std::array stages = {0.0, 0.5, 1.0, 1.5, 2.0, 3.0};  // tau / tau_c
-constexpr double fastest = 4.2;  // c beyond which noise is all there is
-constexpr double rarest = 1e-7;  // rho
+constexpr double fastest = 4.2;      // c beyond which noise is all there is
+constexpr double rarest = 1e-7;      // rho
+constexpr double ratio_until = 3.3;  // c, of the inset
 
 Curve gaussian() {
   Curve curve{.name = "Gaussian", .legend = "exp(−{/:Italic c}^2)", .source = Source::theory};
@@ -30,6 +35,22 @@ Curve gaussian() {
   return curve;
 }
 
+// Mean of exp(-c^2) over the shell of velocities of the bin around c.
+double gaussian_of_bin(double c) {
+  const auto below = [](double end) {  // int_0^end c^2 exp(-c^2) dc
+    const double tail = end * std::exp(-end * end);
+    return 0.25 * (std::sqrt(std::numbers::pi) * std::erf(end) - 2 * tail);
+  };
+  const double from = c - analysis::speed_bin / 2, to = c + analysis::speed_bin / 2;
+  return 3 * (below(to) - below(from)) / (to * to * to - from * from * from);
+}
+
+// Relative standard error of a Gaussian's bin by the particles that are in it.
+double counting_error(double c, double particles) {
+  const double share = 4 / std::sqrt(std::numbers::pi) * c * c * analysis::speed_bin;
+  return 1 / std::sqrt(particles * share * gaussian_of_bin(c));
+}
+
 Curve over_gaussian(const Curve& curve) {
   constexpr double known = 0.2;  // relative error beyond which a ratio says nothing
   Curve ratio = curve;
@@ -38,30 +59,37 @@ Curve over_gaussian(const Curve& curve) {
   ratio.error.clear();
   ratio.realizations.clear();
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
-    const double error = curve.error_at(i);
-    if (!(curve.y[i] > 0) || error > known * curve.y[i]) continue;
-    const double gauss = std::exp(-curve.x[i] * curve.x[i]);
-    ratio.x.push_back(curve.x[i]);
+    const double error = curve.error_at(i), c = curve.x[i];
+    const double particles = static_cast<double>(*curve.particles * curve.realizations[i]);
+    if (!(curve.y[i] > 0) || error > known * curve.y[i] || counting_error(c, particles) > known)
+      continue;
+    const double gauss = gaussian_of_bin(c);
+    ratio.x.push_back(c);
     ratio.y.push_back(curve.y[i] / gauss);
     ratio.error.push_back(error / gauss);
     ratio.realizations.push_back(curve.realizations[i]);
   }
   ratio.legend = "";
   ratio.size = 0.35;
+  ratio.joined = true;
   return ratio;
 }
 
 Panel ratios(const std::vector<Curve>& curves) {
   Panel inset{.name = "ratio",
-              .x = {.column = "c", .low = 0, .high = 3},
+              .x = {.column = "c", .low = 0, .high = ratio_until, .tics = "1"},
               .y = {.label = "{/:Italic ρ} / exp(−{/:Italic c}^2)", .column = "ratio"},
               .legend = "none",
               .small = true,
               .frame = {{0.70, 0.955, 0.69, 0.955}}};
-  for (const Curve& curve : curves) inset.curves.push_back(over_gaussian(curve));
-  inset.y.low = 0.5;
-  inset.y.high = 1.5;
-  inset.y.tics = "0.25";
+  for (const Curve& curve : curves)
+    inset.curves.push_back(until(ratio_until, over_gaussian(curve)));
+  const Range range = y_range(inset.curves);
+  const double reach =
+      1.15 * std::max({range.high - 1, 1 - range.low, 0.05});  // of one, to either side
+  inset.y.low = 1 - reach;
+  inset.y.high = 1 + reach;
+  inset.y.tics = fmt::format("{:g}", round_step(reach / 3));
   inset.commands.push_back(
       "set arrow from graph 0, first 1 to graph 1, first 1 nohead back lw 1 lc rgb '#000000'");
   return inset;

@@ -75,7 +75,7 @@ std::optional<Plot> figure_09(const Averages& averages) {
   panel.y.high = range.high + 0.1 * range.width();
   return Plot{.panels = {panel},
               .caption = fmt::format("τ = {:g}. ", parallel->tau) + provenance({series}) +
-                         error_note({series})};
+                         error_note({series}) + contact_value_note()};
 }
 
 }  // namespace haff::campaign

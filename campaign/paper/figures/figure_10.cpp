@@ -98,7 +98,10 @@ std::optional<Plot> figure_10(const Averages& averages) {
     panel.curves.push_back(theory(series, *each, "G_perpendicular",
                                   &analysis::VelocityCorrelation::perpendicular, end));
   }
-  panel.curves.push_back({.legend = "incompressible theory", .width = 1.2});
+  panel.curves.push_back(
+      {.legend = fmt::format("incompressible theory, {{/:Italic τ}} = {:g} and {:g}",
+                             parallel.front().tau, parallel.back().tau),
+       .width = 1.2});
   Curve key{.legend = "{/:Italic G}_{∥}", .look = Look::symbols};
   panel.curves.push_back(key);
   key.legend = "{/:Italic G}_{⊥}";
@@ -108,7 +111,8 @@ std::optional<Plot> figure_10(const Averages& averages) {
       "set arrow from graph 0, first 0 to graph 1, first 0 nohead back lw 0.7 lc rgb '#888888'");
   panel.y.low = range.low - 0.05 * range.width();
   panel.y.high = range.high + 0.05 * range.width();
-  return Plot{.panels = {panel}, .caption = provenance({series}) + error_note({series})};
+  return Plot{.panels = {panel},
+              .caption = provenance({series}) + error_note({series}) + contact_value_note()};
 }
 
 }  // namespace haff::campaign

@@ -51,8 +51,9 @@ std::optional<Plot> figure_11(const Averages& averages) {
   const Range range = y_range(panel.curves);
   panel.y.low = range.low - 0.04 * range.width();
   panel.y.high = range.high + 0.04 * range.width();
-  return Plot{.panels = {panel},
-              .caption = provenance(chosen) + intervals_note() + error_note(chosen)};
+  return Plot{
+      .panels = {panel},
+      .caption = provenance(chosen) + intervals_note() + error_note(chosen) + contact_value_note()};
 }
 
 }  // namespace haff::campaign

@@ -31,8 +31,10 @@ Panel dilute(Panel panel) {
   panel.name = "dilute";
   panel.legend = "none";
   panel.y.low = 0.96;
-  panel.y.high = 1.01;
+  panel.y.high = 1.002;
+  panel.y.tics = "0.01";
   panel.frame = {{0.59, 0.98, 0.215, 0.975}};
+  panel.commands = {"set label '{/:Italic n} ≤ 0.2' at graph 0.05, graph 0.08"};
   return panel;
 }
 
@@ -69,9 +71,10 @@ std::optional<Plot> figure_12(const Averages& averages) {
   panel.y.low = range.low - 0.04 * range.width();
   panel.y.high = range.high + 0.04 * range.width();
   panel.frame = {{0.09, 0.50, 0.215, 0.975}};
-  return Plot{.panels = {panel, dilute(panel)},
-              .caption = provenance(chosen) + intervals_note() + error_note(chosen),
-              .width = 960};
+  return Plot{
+      .panels = {panel, dilute(panel)},
+      .caption = provenance(chosen) + intervals_note() + error_note(chosen) + contact_value_note(),
+      .width = 960};
 }
 
 }  // namespace haff::campaign

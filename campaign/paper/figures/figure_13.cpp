@@ -92,7 +92,8 @@ std::optional<Plot> figure_13(const Averages& averages) {
   panel.curves.push_back(
       {.legend = fmt::format("energy equation, {{/:Italic b}} = {:.2f}", analysis::cutoff_b)});
   panel.curves.push_back({.legend = "{/:Italic E}_{Haff}", .look = Look::dotted});
-  return Plot{.panels = {panel}, .caption = provenance(chosen) + error_note(chosen)};
+  return Plot{.panels = {panel},
+              .caption = provenance(chosen) + error_note(chosen) + contact_value_note()};
 }
 
 }  // namespace haff::campaign

@@ -172,11 +172,13 @@ std::optional<Plot> figure_15(const Averages& averages) {
   const MeanSeries& gas = series.front();
   return Plot{
       .panels = {time, box},
-      .caption = fmt::format(
-          "e = {}, n = {}, mean of {} realizations. Slopes of ln T over Δτ = {:g}; right, "
-          "over the last quarter. L_c = 2πξ⊥ = {:.2f} σ, N = {:.0f}.{}{}",
-          restitution_text(gas.e), density_text(gas.n), gas.most_realizations(), interval, critical,
-          gas.n * std::pow(critical, 3), versions_text(series), error_note(series)),
+      .caption =
+          fmt::format(
+              "e = {}, n = {}, mean of {} realizations. Slopes of ln T over Δτ = {:g}; right, "
+              "over the last quarter. L_c = 2πξ⊥ = {:.2f} σ, N = {:.0f}.{}{}",
+              restitution_text(gas.e), density_text(gas.n), gas.most_realizations(), interval,
+              critical, gas.n * std::pow(critical, 3), versions_text(series), error_note(series)) +
+          contact_value_note(),
       .width = 960};
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/observables/distribution.hpp"
 #include "support/synthetic_store.hpp"
 
 using namespace haff;
@@ -23,6 +24,32 @@ TEST_CASE("figures: a damaged field ends figure 8 alone") {
   field.cells = 16;
   field.components = 1;
   CHECK_THROWS_WITH(figure_08(averages), doctest::Contains("damaged"));
+}
+
+TEST_CASE("figure 3: of a Gaussian gas the ratio is one, also where a bin is wide") {
+  MeanSeries gas{.e = 0.8, .n = 0.4, .particles = 1'000'000'000, .realizations = {1}, .tau = {0}};
+  MeanProfile rho{.name = "rho", .realizations = 1};
+  for (int bin = 0; bin < analysis::speed_bins; ++bin) {
+    // The mean of exp(-c^2) over a shell, by many thin ones.
+    constexpr int parts = 1000;
+    double sum = 0, volume = 0;
+    for (int part = 0; part < parts; ++part) {
+      const double c = analysis::speed_bin * (bin + (part + 0.5) / parts);
+      sum += c * c * std::exp(-c * c);
+      volume += c * c;
+    }
+    rho.x.push_back(analysis::speed_bin * (bin + 0.5));
+    rho.mean.value.push_back(sum / volume);
+    rho.mean.error.push_back(std::nan(""));
+  }
+  gas.profiles.push_back(rho);
+  Averages averages;
+  averages.series.push_back(gas);
+  const auto plot = figure_03(averages);
+  REQUIRE(plot);
+  const Curve& ratio = plot->panels[1].curves.front();
+  CHECK(ratio.x.back() > 3);
+  for (const double each : ratio.y) CHECK(std::abs(each - 1) < 1e-6);
 }
 
 TEST_CASE("figure 11: a decay rate belongs to the middle of its interval") {
@@ -70,8 +97,8 @@ TEST_CASE("captions: of densities the restitution is common; what is missing is 
   series[1].missing = 1;
   series[1].code_versions = {"0.1.0 (1a2b)"};
   CHECK(provenance(series) ==
-        "e = 0.85; n = 0.40: N = 1 000, mean of 3 realizations (1 planned not done); n = 0.05: N = "
-        "1 000, mean of 3 realizations (2 beyond τ = 1). haff 0.1.0 (1a2b).");
+        "e = 0.85; n = 0.05: N = 1 000, mean of 3 realizations (2 beyond τ = 1); n = 0.40: N = "
+        "1 000, mean of 3 realizations (1 planned not done). haff 0.1.0 (1a2b).");
 }
 
 TEST_CASE("figure 7: smoothed over the paper's windows, against tau/tau_c") {
