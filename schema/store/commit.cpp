@@ -8,9 +8,9 @@
 #include "schema/database/database.hpp"
 #include "schema/digests/checksum.hpp"
 #include "schema/rows/sample_columns.hpp"
+#include "schema/store/agreement.hpp"
 #include "schema/store/bind.hpp"
 #include "schema/store/checked_rows.hpp"
-#include "schema/store/contradiction.hpp"
 #include "schema/store/lease.hpp"
 #include "schema/store/store.hpp"
 
@@ -27,21 +27,7 @@ void must_be_finite(const Lease& lease, const Sample& sample) {
                  std::to_string(sample.tau) + " holds a value that is not finite");
 }
 
-// A sample that is there already is kept. What the trajectory alone decides must have come out
-// the same; gamma_ratio may differ in its last digits between two machines' logarithms.
-void must_agree(SQLite::Database& sqlite, const Lease& lease, const Sample& again) {
-  SQLite::Statement statement(sqlite, "SELECT * FROM samples WHERE job_id = ? AND tau = ?");
-  statement.bind(1, lease.job_id);
-  statement.bind(2, again.tau);
-  statement.executeStep();
-  const Sample stored = sample(statement);
-  if (stored.time != again.time || stored.temperature != again.temperature)
-    throw Damage("job " + std::to_string(lease.job_id) +
-                 ": the sample at tau = " + std::to_string(again.tau) + " " + came_out_different +
-                 "; one of the two computations was disturbed, or the program that made the first "
-                 "has changed");
-}
-
+// Samples that are there already are kept.
 void insert(Database& database, const Lease& lease, const std::vector<Sample>& samples) {
   if (samples.empty()) return;
   const DigestedTable& table = database.digests().table(Part::samples);
@@ -68,7 +54,7 @@ void insert(Database& database, const Lease& lease, const std::vector<Sample>& s
     if (statement.executeStep())
       database.digests().added(lease.job_id, Part::samples, table.digest(statement));
     else
-      must_agree(database.sqlite(), lease, sample);
+      must_agree(database, lease.job_id, sample);
   }
 }
 
@@ -247,6 +233,7 @@ Status Store::finish(const Lease& lease, const Commit& commit,
   return database().transaction([&] {
     SQLite::Database& sqlite = database().sqlite();
     entry.write(database());
+    must_agree_with_same_physics(database(), lease.job_id);
     if (results) replace(sqlite, lease, *results);
 
     SQLite::Statement row(sqlite, "SELECT tau_max FROM jobs WHERE job_id = ?");
@@ -270,6 +257,7 @@ void Store::collapse(const Lease& lease, const Commit& commit, const std::string
   database().transaction([&] {
     SQLite::Database& sqlite = database().sqlite();
     entry.write(database());
+    must_agree_with_same_physics(database(), lease.job_id);
     SQLite::Statement statement(sqlite, "UPDATE jobs SET error = ? WHERE job_id = ?");
     statement.bind(1, printable(what));
     statement.bind(2, lease.job_id);

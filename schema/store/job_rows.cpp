@@ -15,15 +15,6 @@ namespace haff::schema {
 
 namespace {
 
-// Two C libraries differ in the last digits of a logarithm, two FFT libraries in those of a
-// transform. Everything else is decided by the trajectory, and equal in every bit.
-double tolerance(std::string_view column) {
-  constexpr double logarithm = 1e-9, transform = 1e-6;  // relative
-  if (column == "gamma_ratio" || column == "tau_c" || column == "time_c") return logarithm;
-  if (column == "value" || column == "correlation_trace") return transform;
-  return 0;
-}
-
 // Tables whose rows have digests that grow with each row.
 constexpr std::array grown{Part::samples, Part::profiles, Part::fields};
 
@@ -95,7 +86,7 @@ void compare(SQLite::Statement& ours, SQLite::Statement& theirs, const Table& ta
              std::vector<Difference>& found) {
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const auto a = ours.getColumn(static_cast<int>(i)), b = theirs.getColumn(static_cast<int>(i));
-    const Likeness how = likeness(a, b, tolerance(table.columns[i]));
+    const Likeness how = likeness(a, b, last_digits(table.columns[i]));
     if (how != Likeness::same)
       found.push_back({.part = part,
                        .row = place(ours, table),
@@ -194,6 +185,13 @@ std::int64_t add(const RowsOfJob& ours, const RowsOfJob& theirs, const Table& ta
 }
 
 }  // namespace
+
+double last_digits(std::string_view column) {
+  constexpr double logarithm = 1e-9, transform = 1e-6;
+  if (column == "gamma_ratio" || column == "tau_c" || column == "time_c") return logarithm;
+  if (column == "value" || column == "correlation_trace") return transform;
+  return 0;
+}
 
 std::string described(const SQLite::Column& value) {
   if (value.isNull()) return "NULL";

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "schema/database/database.hpp"
@@ -20,6 +21,11 @@ struct RowsOfJob {
 
   SQLite::Database& sqlite() const { return database.sqlite(); }
 };
+
+// By how much a column may differ between two machines: two C libraries differ in the last digits
+// of a logarithm, two FFT libraries in those of a transform. All else is decided by the trajectory,
+// and equal in every bit. [relative]
+double last_digits(std::string_view column);
 
 // The same as what is in SQLite: NULL, an integer, a real, a text or a BLOB.
 void bind_value(SQLite::Statement& statement, int place, const SQLite::Column& value);

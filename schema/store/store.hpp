@@ -88,13 +88,13 @@ class Store : public Reader {
   // Still alive, and so far. Throws LeaseLost like everything below.
   void progress(const Lease& lease, const Progress& progress);
 
-  // Samples, profiles and fields that are there already are kept as they are; if the time or
-  // temperature of a sample came out different, Damage. A checkpoint sets the job's attempts back
-  // to 0.
+  // Samples, profiles and fields that are there already are kept as they are; if a column of a
+  // sample, in which two computations must agree, came out different, Damage. A checkpoint sets the
+  // job's attempts back to 0.
   void commit(const Lease& lease, const Commit& commit);
 
-  // The last commit of a job, its results (cooling only), and its end. tau_max: what the worker
-  // ran to. Returns done, or pending if a plan extended the job meanwhile.
+  // The last commit of a job that ran to tau_max, its results (cooling only), and its end: done, or
+  // pending if a plan extended it. Damage, if a finished job of the same physics has other samples.
   Status finish(const Lease& lease, const Commit& commit, const std::optional<Results>& results,
                 double tau_max);
 

@@ -45,23 +45,6 @@ TEST_CASE("the last sample before a checkpoint is found") {
   CHECK(working.store.last_sample(job_id, 90) == sample_at(2));
 }
 
-TEST_CASE("samples that are there already are kept, and must agree") {
-  Working working;
-  const Lease lease = working.claim.lease;
-  Sample sample = sample_at(1);
-  sample.gamma_ratio = 1.0;
-  working.store.commit(lease, {.samples = {sample}});
-
-  Sample again = sample;
-  again.gamma_ratio = std::nextafter(1.0, 2.0);  // another C library's logarithm
-  working.store.commit(lease, {.samples = {again}});
-  CHECK(working.store.samples(lease.job_id) == std::vector{sample});
-
-  again.temperature = std::nextafter(0.5, 1.0);
-  CHECK_THROWS_AS(working.store.commit(lease, {.samples = {sample_at(2), again}}), Damage);
-  CHECK(working.store.samples(lease.job_id) == std::vector{sample});
-}
-
 TEST_CASE("a sample that is not finite is refused with all it came with") {
   Working working;
   const Lease lease = working.claim.lease;

@@ -27,15 +27,17 @@ double noise(std::uint64_t seed, std::uint64_t k) {
   return static_cast<double>(x >> 11) * 0x1p-53 - 0.5;
 }
 
-// A series of a gas whose temperature is near `scale`.
+// A series of a gas whose temperature is near `scale`. At one tau it has the same numbers, however
+// often it is sampled.
 Realization series(const Job& job, int length, double scale = 1) {
   Realization made{.job = job, .samples = {}};
   for (int k = 0; k <= length; ++k) {
+    const double tau = k * job.sample_every;
     const auto draw = [&](std::uint64_t which) {
-      return noise(job.seed, 10 * static_cast<std::uint64_t>(k) + which);
+      return noise(job.seed, 10 * static_cast<std::uint64_t>(std::lround(tau)) + which);
     };
-    Sample sample{.tau = k * job.sample_every,
-                  .time = k + 0.1 * draw(0),
+    Sample sample{.tau = tau,
+                  .time = 1 + tau + 0.1 * draw(0),
                   .temperature = scale * (1 + 1e-3 * draw(1)),
                   .a2 = 0.01 * draw(2),
                   .a3 = 0.01 * draw(3),
