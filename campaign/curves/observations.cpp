@@ -27,6 +27,8 @@ std::string condition(const std::string& where, const Vocabulary& words) {
 // Rows of the gas, job_id, seed, code_version, and three numbers: place, x and y. Rows that lack
 // one of them are left out.
 Observations read(const schema::Reader& store, const std::string& sql, bool has_tau) {
+  using schema::Part;
+  store.must_match_digests({Part::samples, Part::profiles, Part::results});
   std::map<schema::Row, Observation> all;
   Observations result;
   auto rows = store.query(sql);

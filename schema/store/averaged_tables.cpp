@@ -69,6 +69,7 @@ struct Free {
 }  // namespace
 
 std::vector<std::byte> averaged_tables(const Reader& store) try {
+  store.must_match_digests({Part::samples, Part::profiles, Part::results});
   SQLite::Database file(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   SQLite::Transaction transaction(file);
   for (const Table& table : tables) copy(store, table, file);

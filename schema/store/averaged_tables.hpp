@@ -12,6 +12,7 @@ namespace haff::schema {
 // The bytes of an SQLite file with the tables mean_series, mean_temperatures, mean_profiles,
 // mean_tau_c, target_outcomes and job_effects, which hold the rows that the store's views of these
 // names have now, and the table jobs without what only a run needs. Reals keep their bits.
+// Throws Damage if rows that are averaged are not as they were written.
 std::vector<std::byte> averaged_tables(const Reader& store);
 
 }  // namespace haff::schema

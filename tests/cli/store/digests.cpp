@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <vector>
 
 #include "cli/program.hpp"
 
@@ -59,6 +60,54 @@ TEST_CASE("digests: a changed row is found, named, not averaged, and put right")
     CHECK(holds(repaired.out, "computed again"));
     CHECK(rows(folder) == before);
     CHECK(campaign(folder, {"verify"}).exit_code == 0);
+  }
+}
+
+TEST_CASE("digests: no average takes a changed row in, and a row itself is shown with a warning") {
+  struct Case {
+    const char* harm;
+    std::vector<std::string> refused, shown;
+  };
+  const std::vector<std::string> report{"report"}, plot{"plot", "temperature"};
+  for (const Case& one :
+       {Case{harm[0],
+             {"SELECT avg(pressure) FROM mean_series", "SELECT count(*) FROM Mean_Series"},
+             {"SELECT pressure FROM samples WHERE job_id = 3"}},
+        Case{harm[1], {"SELECT * FROM mean_profiles"}, {"SELECT count(*) FROM profiles"}},
+        Case{harm[2], {}, {"SELECT name, length(data) FROM fields"}},
+        Case{harm[4], {"SELECT tau_c FROM mean_tau_c"}, {"SELECT * FROM results"}},
+        Case{"UPDATE jobs SET e = 0.9 WHERE job_id = 3",
+             {"SELECT * FROM mean_series", "SELECT * FROM mean_tau_c"},
+             {}}}) {
+    CAPTURE(std::string(one.harm));
+    const Folder folder;
+    run(folder);
+    sabotage(folder, one.harm);
+    for (const std::string& sql : one.refused) {
+      CAPTURE(sql);
+      const Outcome outcome = campaign(folder, {"query", sql});
+      CHECK(outcome.exit_code == 1);
+      CHECK(outcome.out.empty());
+      CHECK(holds(outcome.err, "job 3"));
+      CHECK(holds(outcome.err, "campaign verify --repair"));
+    }
+    for (const std::string& sql : one.shown) {
+      CAPTURE(sql);
+      const Outcome outcome = campaign(folder, {"query", sql});
+      CHECK(outcome.exit_code == 0);
+      CHECK_FALSE(outcome.out.empty());
+      CHECK(holds(outcome.err, "Warning: "));
+      CHECK(holds(outcome.err, "job 3: "));
+    }
+    if (one.harm == harm[0])
+      for (const auto& words : {report, plot}) {
+        const Outcome outcome = campaign(folder, words);
+        CHECK(outcome.exit_code == 1);
+        CHECK(holds(outcome.err, "job 3: its samples are not as they were written"));
+      }
+    const Outcome other = campaign(folder, {"query", "SELECT job_id FROM jobs"});
+    CHECK(other.exit_code == 0);
+    CHECK(other.err.empty());
   }
 }
 
