@@ -66,15 +66,17 @@ std::optional<std::string> energy_contradiction(const engine::State& state, cons
     if (!sample.temperature) continue;
     const std::int64_t collisions = engine::collisions_at(sample.tau, job.particles);
     if (collisions != state.collisions && is_heated(job)) continue;
-    const double excess = energy / total_energy(sample, job) - 1;
-    const bool agrees = collisions < state.collisions   ? excess <= energy_rounding
-                        : collisions > state.collisions ? excess >= -energy_rounding
-                                                        : std::abs(excess) <= energy_rounding;
+    const double sampled = total_energy(sample, job);
+    const double excess = energy - sampled;
+    const double rounding = energy_rounding * sampled + smallest_energy;
+    const bool agrees = collisions < state.collisions   ? excess <= rounding
+                        : collisions > state.collisions ? excess >= -rounding
+                                                        : std::abs(excess) <= rounding;
     if (agrees) continue;
     return fmt::format(
         "the state after {} collisions has temperature {:.17g}, the sample at tau = "
         "{} {:.17g}",
-        state.collisions, energy, sample.tau, total_energy(sample, job));
+        state.collisions, energy, sample.tau, sampled);
   }
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 // The energy of a gas, in its state and in its samples: whether one can be the other's.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,11 @@ namespace haff::campaign {
 
 // An elastic gas keeps its energy but for rounding, some 1e-16 a collision at random. [relative]
 inline constexpr double elastic_drift = 1e-9;
+
+// Below 1e-308, some 700 e-foldings of cooling, doubles have fewer digits the smaller they are,
+// down to none. The energy of a sample is a sum of at most three of them, each with a rounding of
+// its own: two such energies that differ by less are equal. [E(0)]
+inline constexpr double smallest_energy = 8 * std::numeric_limits<double>::denorm_min();
 
 // (2/d) of the energy per particle, of translation and, in rough spheres, rotation: what collisions
 // cannot make more. [E(0)]

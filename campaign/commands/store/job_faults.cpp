@@ -42,7 +42,8 @@ void check_order(const std::vector<Sample>& samples, const JobRow& row, Texts& f
     if (now.time < before.time)
       faults.push_back(fmt::format("time runs backwards at tau = {}", now.tau));
     if (now.temperature && before.temperature && !is_heated(row.job) &&
-        total_energy(now, row.job) > total_energy(before, row.job) * (1 + elastic_drift))
+        total_energy(now, row.job) >
+            total_energy(before, row.job) * (1 + elastic_drift) + smallest_energy)
       faults.push_back(fmt::format("the gas grows warmer at tau = {}", now.tau));
   }
 }
