@@ -27,9 +27,10 @@ constexpr std::int64_t stretch = 20'000;
 constexpr auto report_every = 200ms;  // progress bars
 constexpr auto renew_every = 5s;      // the lease, and tau as `campaign status` shows it
 
-// A worker that is asked to stop may go on for this long to keep the work since the last
-// checkpoint. [s]
-constexpr double patience = 1.0;
+// A worker that is asked to stop goes on to the next synchronization, where its gas can be stored,
+// if that is expected to take no longer than this: the coordinator kills it five seconds after the
+// signal. [s]
+constexpr double patience = 3.0;
 
 }  // namespace
 
@@ -97,20 +98,27 @@ void Attempt::commit(double tau) {
   store_.commit(claim_.lease, commit);
   committed_ = samples_.size();
   views_ = {};
-  has_stored_ = true;
 }
 
 bool Attempt::is_asked_to_leave() const {
   return stop_signal() != 0;
 }
 
+// At a limit (SIGUSR1) nothing that was computed is given up.
 bool Attempt::may_go_on_to_synchronization() const {
-  return (stop_signal() == SIGUSR1 && !has_stored_) || is_near_synchronization();
+  return stop_signal() == SIGUSR1 || seconds_to_synchronization() < patience;
 }
 
 Ending Attempt::leave() {
   store_.release(claim_.lease);
-  log(fmt::format("is left at tau = {:.6g}", store_.stored_tau(claim_.lease.job_id)));
+  const double stored = store_.stored_tau(claim_.lease.job_id);
+  if (gas_->collisions() > engine::collisions_at(stored, job().particles))
+    log(
+        fmt::format("is left at tau = {:.6g}; what was computed from there to tau = {:.6g} is not "
+                    "stored: that would have taken another {:.1f} s",
+                    stored, tau(), seconds_to_synchronization()));
+  else
+    log(fmt::format("is left at tau = {:.6g}", stored));
   return Ending::left;
 }
 
@@ -151,10 +159,10 @@ void Attempt::report_progress() {
   }
 }
 
-bool Attempt::is_near_synchronization() const {
+double Attempt::seconds_to_synchronization() const {
   const double period = engine::synchronization_period;
   const double left = period - std::fmod(tau(), period);
-  return left * job().particles / 2 < patience * collisions_per_second();
+  return left * job().particles / 2 / collisions_per_second();
 }
 
 double Attempt::collisions_per_second() const {

@@ -36,8 +36,8 @@ class Attempt {
   // Start from this state, with the samples the store has up to it.
   void begin(const engine::State& state);
 
-  // False if asked to stop, unless a synchronization is near at which the state can be stored, or a
-  // limit (SIGUSR1) found that nothing of this attempt is stored yet.
+  // False if asked to stop, unless the state can be stored soon, at the next synchronization, or a
+  // limit asks (SIGUSR1), which leaves the time for that.
   [[nodiscard]] bool advance_to(std::int64_t collisions);
 
   void sample(double tau);  // and the profiles and fields that go with it
@@ -62,7 +62,7 @@ class Attempt {
   void report_progress();
   // Asked to stop: whether to collide on to the next synchronization first.
   bool may_go_on_to_synchronization() const;
-  bool is_near_synchronization() const;
+  double seconds_to_synchronization() const;  // expected; infinite before the first collision
   double collisions_per_second() const;
   double tau() const;
   schema::Progress progress(double tau) const;
@@ -82,7 +82,6 @@ class Attempt {
   double cpu_at_start_;
   Clock::time_point reported_, renewed_, speed_since_;
   std::int64_t speed_from_ = 0;
-  bool has_stored_ = false;
 };
 
 }  // namespace haff::campaign

@@ -316,15 +316,17 @@ class Coordinator {
     if (!is_stopping() && options_.max_seconds &&
         now - start_ > std::chrono::duration<double>(*options_.max_seconds)) {
       end_.over_limit = true;
-      tell(Level::info, "stopping: --max-time is over", "stopping");
+      tell(Level::info, "stopping: --max-time is over; workers go on to where they can store",
+           "stopping");
       stop(SIGUSR1);
     }
     if (!is_stopping() && options_.cpu_budget && cpu_spent() > *options_.cpu_budget) {
       end_.over_limit = true;
-      tell(Level::info, "stopping: --budget is spent", "stopping");
+      tell(Level::info, "stopping: --budget is spent; workers go on to where they can store",
+           "stopping");
       stop(SIGUSR1);
     }
-    // A limit lets each worker store something first; a signal does not.
+    // A limit lets each worker go on to where its gas can be stored; a signal does not wait long.
     if (is_stopping() && stop_signal() != 0) stop(SIGTERM);
     if (hurried_since_ && (stop_signals() > 1 || now - *hurried_since_ > grace))
       for (const auto& worker : workers_)
@@ -338,8 +340,8 @@ class Coordinator {
     return sum;
   }
 
-  // SIGTERM: workers have `grace` to store what they can. SIGUSR1: as long as it takes to store a
-  // first checkpoint, so that a run that is stopped by a limit has not worked for nothing.
+  // SIGTERM: workers have `grace` to store what they can. SIGUSR1: as long as it takes to the next
+  // synchronization, so that nothing is lost to a limit.
   void stop(int signal) {
     if (hurried_since_ || (signal == SIGUSR1 && is_stopping())) return;
     if (!is_stopping()) stopping_since_ = Clock::now();

@@ -125,7 +125,7 @@ TEST_CASE("interruption: SIGINT and SIGTERM stop a run in order, and the same co
     const Outcome outcome = run.wait();
     CHECK(outcome.exit_code == stop.exit_code);
     // Promptly: a second for work worth keeping, and some for a busy machine.
-    CHECK(std::chrono::steady_clock::now() - start < 4s);
+    CHECK(std::chrono::steady_clock::now() - start < 10s);  // workers get five
     CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'running'") == 0);
     CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'pending'") > 0);
     CHECK(number(folder, "SELECT sum(attempts) FROM jobs") == 0);
@@ -135,7 +135,7 @@ TEST_CASE("interruption: SIGINT and SIGTERM stop a run in order, and the same co
   }
 }
 
-TEST_CASE("interruption: a large gas far from its next checkpoint is left at once") {
+TEST_CASE("interruption: a large gas far from its next checkpoint does not keep a stop waiting") {
   const Folder folder;
   plan(folder, R"({"e": 0.9, "n": 0.4, "N": 400000, "seeds": 1, "tau_max": 20})");
   Program run(folder, {"run", "--workers", "1"});
@@ -144,7 +144,7 @@ TEST_CASE("interruption: a large gas far from its next checkpoint is left at onc
   run.signal(SIGINT);
   const auto start = std::chrono::steady_clock::now();
   CHECK(run.wait().exit_code == 130);
-  CHECK(std::chrono::steady_clock::now() - start < 4s);
+  CHECK(std::chrono::steady_clock::now() - start < 10s);  // workers get five
 }
 
 TEST_CASE("interruption: a worker that another program stops is replaced") {
