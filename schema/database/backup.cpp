@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "schema/file/journal.hpp"
 #include "schema/file/patience.hpp"
 
 namespace haff::schema {
@@ -77,8 +78,8 @@ void must_be_sound(SQLite::Database& copy, const std::filesystem::path& store) {
   throw NameError(to.string() + ": exists already and is left alone; name another file");
 }
 
-void flush_folder(const std::filesystem::path& folder) {
-  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+void flush(const std::filesystem::path& file_or_folder) {
+  const int opened = ::open(file_or_folder.c_str(), O_RDONLY | O_CLOEXEC);
   if (opened < 0) return;
   fsync(opened);
   close(opened);
@@ -94,7 +95,7 @@ void give_name(const std::filesystem::path& made, const std::filesystem::path& w
       throw DiskError(to.string() + ": cannot be given its name (" +
                       std::generic_category().message(errno) + ")");
   }
-  flush_folder(wanted.parent_path());
+  flush(wanted.parent_path());
 }
 
 // A file that is gone with its owner, unless it was given another name.
@@ -130,6 +131,8 @@ std::uintmax_t back_up(Database& database, const std::filesystem::path& to) {
   } catch (const SQLite::Exception& error) {
     raise(to, error);
   }
+  draw_counter(unfinished.file());
+  flush(unfinished.file());
   const auto bytes = std::filesystem::file_size(unfinished.file());
   give_name(unfinished.file(), wanted, to);
   return bytes;

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "schema/file/header.hpp"
+#include "schema/file/journal.hpp"
 #include "schema/file/network.hpp"
 #include "schema/file/patience.hpp"
 #include "schema/rows/measured.hpp"
@@ -154,6 +155,7 @@ Database::Database(const std::filesystem::path& path, Access access) try : path_
   forget_trouble();
   file_ = resolved(path);
   if (access != Access::create) must_exist(path, file_);
+  must_be_journal_of(file_, path_);  // before SQLite's first look, which would put it back
   if (access == Access::read)
     open_to_read();
   else

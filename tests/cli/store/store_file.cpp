@@ -120,6 +120,34 @@ TEST_CASE("store file: a backup put over a killed run is not mixed with the log 
   CHECK(campaign(folder, {"verify"}).exit_code == 0);
 }
 
+TEST_CASE("store file: a backup put in the place of a killed plan is not mixed with its journal") {
+  const Folder folder;
+  plan(folder, short_grid);
+  shell(folder, "cp campaign.db early.db");
+  plan(folder, R"({"e": 0.9, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 5})");
+  REQUIRE(campaign(folder, {"backup", "backup.db"}).exit_code == 0);
+  // A transaction that has reached the file, as memory holds few of its pages, when power fails.
+  shell(folder, R"(sqlite3 campaign.db "PRAGMA cache_size = 1; BEGIN;
+      UPDATE jobs SET error = hex(randomblob(20000));" \
+      ".shell cp campaign.db cut.db; cp campaign.db-journal cut.db-journal")");
+  REQUIRE(std::filesystem::exists(folder / "cut.db-journal"));
+  shell(folder, "mkdir put; cp cut.db* put");
+  CHECK(campaign(folder, {"verify", "--store", "put/cut.db"}).exit_code == 0);  // its own: put back
+  for (const char* copy : {"early.db", "backup.db"}) {
+    CAPTURE(std::string(copy));
+    shell(folder, std::string("rm put/*; cp cut.db-journal put; cp ") + copy + " put/cut.db");
+    for (const char* command : {"status", "verify", "run", "retry"}) {
+      CAPTURE(std::string(command));
+      const Outcome outcome = campaign(folder, {command, "--store", "put/cut.db"});
+      CHECK(outcome.exit_code == 1);
+      CHECK((outcome.out + outcome.err).find("is that of another file") != std::string::npos);
+    }
+    CHECK(shell(folder, std::string("cmp put/cut.db ") + copy).exit_code == 0);
+    shell(folder, "rm put/cut.db-journal");
+    CHECK(campaign(folder, {"verify", "--store", "put/cut.db"}).exit_code == 0);
+  }
+}
+
 TEST_CASE("store file: a copy made without its log is known as one") {
   const Folder folder;
   plan(folder, grid);
