@@ -1,5 +1,5 @@
 // Single flipped bits in the file of a store that holds every effect and observable: each that
-// changes what the store says is found by `campaign verify`.
+// changes what the store says is found, and those of values are put right.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,19 @@ namespace haff::tests {
 struct FlippedBits {
   int flips = 0;
   int telling = 0;  // those that change what the store says, or make it unreadable
-  int found = 0;    // of these, by verify
+  int found = 0;    // of these, by `campaign verify`, or by a run that stops there
+  int mended = 0;   // of these, by `verify --repair`, `retry` and `run`: flips of values alone
 };
 
+// values: of samples, profiles, fields, results, states, jobs. anywhere: SQLite's own bytes too,
+// and many that say nothing.
+enum class BitsOf { values, anywhere };
+
+// half_run: jobs are pending, and go on from the states of a shorter tau_max.
+enum class Store { finished, half_run };
+
 // So many flips, each in a fresh copy of the store, at places that the seed decides. A flip that is
-// not found is a failure of the test that calls, with byte and bit.
-FlippedBits flip_bits(std::uint64_t seed, int flips);
+// not found, or not put right, is a failure of the test that calls, which names the place.
+FlippedBits flip_bits(std::uint64_t seed, int flips, BitsOf of, Store store = Store::finished);
 
 }  // namespace haff::tests

@@ -1,12 +1,24 @@
-// A few flipped bits in the gate; 500 of them in tests/validate/flipped_bits.cpp.
+// A few flipped bits in the gate; hundreds of them in tests/validate/flipped_bits.cpp.
 #include "support/flipped_bits.hpp"
 
 #include <doctest/doctest.h>
 
 using namespace haff::tests;
 
-TEST_CASE("flipped bits: verify finds those that change what a store says") {
-  const FlippedBits result = flip_bits(1, 25);
-  MESSAGE(result.found, " of ", result.telling, " found, of ", result.flips, " flips");
+TEST_CASE("flipped bits: of values, each is found and put right") {
+  const FlippedBits result = flip_bits(1, 12, BitsOf::values);
+  CHECK(result.telling == result.flips);
+  CHECK(result.found == result.telling);
+  CHECK(result.mended == result.telling);
+}
+
+TEST_CASE("flipped bits: in a store that is half run, each is found and put right") {
+  const FlippedBits result = flip_bits(2, 8, BitsOf::values, Store::half_run);
+  CHECK(result.found == result.telling);
+  CHECK(result.mended == result.telling);
+}
+
+TEST_CASE("flipped bits: anywhere, verify finds those that change what the store says") {
+  const FlippedBits result = flip_bits(3, 25, BitsOf::anywhere);
   CHECK(result.found == result.telling);
 }
