@@ -63,10 +63,7 @@ class PowerLoss {
     const Result verified = shell(folder, "verify");
     const bool is_unfinished = contains(verified.said, "is empty; make it with") ||
                                contains(verified.said, "there is no such store");
-    // A log that is lost whole, before its first sync, looks as if it had been left behind.
-    const bool lacks_log = contains(verified.said, "Its newest rows may be missing") &&
-                           !contains(verified.said, "fault");
-    if (verified.exit_code != 0 && !(while_planning && is_unfinished) && !lacks_log)
+    if (verified.exit_code != 0 && !(while_planning && is_unfinished))
       return named("verify says: " + verified.said);
     if (const auto wrong = complete(folder, while_planning, expected_)) return named(*wrong);
     return std::nullopt;
