@@ -8,24 +8,24 @@ namespace haff::campaign {
 CLI::App* add_verify(CLI::App& app, VerifyOptions& options) {
   auto* command = app.add_subcommand(
       "verify", "Check the store: SQLite, digests of rows, checkpoints, physics, completeness");
-  auto* repair =
-      command->add_flag("--repair", options.repair,
-                        "Compute again what is wrong, and put the rows right where they differ");
+  command->add_flag("--repair", options.repair,
+                    "Compute again what is wrong, and put the rows right where they differ");
   command
       ->add_option("--recompute", options.recompute,
                    "Compute finished jobs again and compare every bit: a job's number, all, or a "
                    "part of them such as 5%")
       ->type_name("JOB|all|N%")
-      ->check(CLI::Validator([](std::string& word) { return fault_of_choice(word); }, ""))
-      ->excludes(repair);
+      ->check(CLI::Validator([](std::string& word) { return fault_of_choice(word); }, ""));
   command->footer(examples(R"(  campaign verify && echo sound
   campaign verify --recompute 12
   campaign verify --recompute 5% --store dense.db
   campaign verify --repair && campaign run
+  campaign verify --recompute 12 --repair
 
 Exit code 1: something is wrong. Each row has a digest since it was written, so that any bit that has
 flipped since is found. --recompute costs the CPU time of the jobs, and finds what was wrong when it
-was written; it changes nothing. --repair changes only what is wrong, and says what it changed.)"));
+was written; it changes nothing. --repair changes only what is wrong, and says what it changed. Both
+together replace what a second and a third computation, which must agree, find to be another.)"));
   return command;
 }
 

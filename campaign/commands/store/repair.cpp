@@ -157,19 +157,7 @@ class Repair {
     const std::string job = job_name(row);
     try {
       const Recomputation again = recompute(store_, row);
-      std::int64_t replaced = 0;
-      for (const Part part : computed)
-        replaced += store_.replace_rows(row.job_id, part, again.store, again.job_id);
-      store_.replace_rows(row.job_id, Part::invariants, again.store, again.job_id);
-      const auto left = differences(store_, row, again);
-      const bool is_state_new =
-          has_damaged_state || std::ranges::any_of(left, [](const schema::Difference& each) {
-            return each.part == Part::checkpoints;
-          });
-      if (is_state_new)
-        store_.replace_rows(row.job_id, Part::checkpoints, again.store, again.job_id);
-      else
-        store_.digest_again(row.job_id, Part::checkpoints);
+      const auto [replaced, is_state_new] = replace(store_, row, again, has_damaged_state);
       if (replaced == 0 && !is_state_new)
         note("{}: computed again; its rows are as they came out, and are digested anew\n", job);
       else
@@ -211,6 +199,37 @@ class Repair {
 };
 
 }  // namespace
+
+namespace {
+
+bool has_other_state(const Store& store, const JobRow& row, const Recomputation& again) try {
+  const auto here = store.checkpoint(row.job_id), there = again.store.checkpoint(again.job_id);
+  return here && there && here->state != there->state;
+} catch (const schema::Unavailable&) {
+  throw;
+} catch (const schema::Damage&) {
+  return true;
+}
+
+}  // namespace
+
+Replaced replace(Store& store, const JobRow& row, const Recomputation& again,
+                 bool has_damaged_state) {
+  Replaced replaced;
+  for (const Part part : computed)
+    replaced.rows += store.replace_rows(row.job_id, part, again.store, again.job_id);
+  store.replace_rows(row.job_id, Part::invariants, again.store, again.job_id);
+  // Rows that came out different may be of a trajectory that was disturbed: then so is its state.
+  replaced.state = has_damaged_state || (replaced.rows > 0 && has_other_state(store, row, again)) ||
+                   std::ranges::any_of(differences(store, row, again), [](const auto& each) {
+                     return each.part == Part::checkpoints;
+                   });
+  if (replaced.state)
+    store.replace_rows(row.job_id, Part::checkpoints, again.store, again.job_id);
+  else
+    store.digest_again(row.job_id, Part::checkpoints);
+  return replaced;
+}
 
 int repair(const std::filesystem::path& path, bool json) {
   return Repair(path, json).run();

@@ -162,9 +162,9 @@ ordered_json json_of(const Findings& found, const std::string& size) {
 }  // namespace
 
 int verify(const VerifyOptions& options) {
-  if (options.repair) return repair(options.store, options.json);
   if (!options.recompute.empty())
-    return recompute_jobs(options.store, options.recompute, options.json);
+    return recompute_jobs(options.store, options.recompute, options.repair, options.json);
+  if (options.repair) return repair(options.store, options.json);
   const std::filesystem::path& path = options.store;
   if (!std::filesystem::exists(path)) static_cast<void>(Reader{path});  // throws: make it first
   Findings found;
