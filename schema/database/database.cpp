@@ -274,9 +274,11 @@ void Database::open_to_write(Access access) {
   // With a log, a commit reaches the operating system, not yet the disk. A killed process loses
   // nothing; power loss undoes the newest commits, and what they held is computed again with the
   // same bits, so that waiting for the disk at each commit would buy nothing. Without a log each
-  // commit waits for the disk: there are few, and a plan is not computed again.
+  // commit waits for the disk: there are few, and a plan is not computed again. EXTRA: for the
+  // deletion of its journal too, which would otherwise come back after power loss and undo the
+  // commit, even one that a log was made after (open_log).
   sqlite_->exec(mode(*sqlite_) == "wal" ? "PRAGMA synchronous = NORMAL"
-                                        : "PRAGMA synchronous = FULL");
+                                        : "PRAGMA synchronous = EXTRA");
   sqlite_->exec("PRAGMA foreign_keys = ON");
   // A replaced checkpoint need not be overwritten with zeros first.
   sqlite_->exec("PRAGMA secure_delete = OFF");
