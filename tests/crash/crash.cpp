@@ -7,6 +7,7 @@
 //   crash fail --seed 1 --only 37
 //   crash fail --every sync                     each call of a kind in turn, once and from then on
 //   crash storm --seed 1 --storms 10            many commands at once, killed at any moment
+//   crash clock                                 two runs at once whose clocks differ
 //
 // An image or a case follows from its seed and its number alone; the record that images are made
 // from is that of several processes, and differs from one run to the next in the order of what they
@@ -17,7 +18,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <fstream>
+#include <future>
 #include <optional>
 #include <string>
 
@@ -206,6 +209,66 @@ class FailingCalls {
   mutable int failed_ = 0;
 };
 
+// ---- clocks that differ -----------------------------------------------------------------------
+
+// A run in another process namespace, as in a container, can tell nothing of the first one's
+// workers but by their leases, and the times in these are those of other clocks.
+class Clocks {
+ public:
+  Clocks() {
+    std::ofstream(folder_ / "grid.json") << grid(tau_max_of_a_storm, 1);
+    must_succeed(shell(folder_.path(), "plan grid.json"));
+    std::filesystem::copy_file(folder_ / store_name, folder_ / "planned.db");
+    must_succeed(shell(folder_.path(), "run --workers 2"));
+    expected_ = rows(folder_.path());
+  }
+
+  static bool can_be_tried() {
+    return std::system((std::string(elsewhere) + " true > /dev/null 2>&1").c_str()) == 0;
+  }
+
+  std::optional<std::string> fault(int ahead) const {
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(folder_ / "planned.db", folder / store_name);
+    const auto run = [&](const std::string& environment) {
+      return shell(folder.path(), "run --workers 1", environment);
+    };
+    auto first = std::async(std::launch::async, run, "");
+    const Result second = run(fmt::format("HAFF_CLOCK={} {}", ahead, elsewhere));
+    for (const Result& result : {first.get(), second}) {
+      const bool has_lost_a_job =
+          contains(result.said, "taken back") || contains(result.said, "another worker");
+      if (result.exit_code != 0 || has_lost_a_job)
+        return fmt::format("with a clock {} s ahead: exit {}: {}", ahead, result.exit_code,
+                           result.said);
+    }
+    if (rows(folder.path()) != expected_) return "the rows differ in the end";
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr const char* elsewhere =
+      "unshare --user --map-root-user --pid --fork --mount-proc";
+  TemporaryFolder folder_;
+  std::string expected_;
+};
+
+int try_clocks() {
+  if (!Clocks::can_be_tried()) {
+    fmt::print("Skipped: this machine does not let a user have a process namespace\n");
+    return 0;
+  }
+  const Clocks clocks;
+  int faults = 0;
+  for (const int ahead : {600, -600, 1'000'000'000, -1'000'000'000})
+    if (const auto fault = clocks.fault(ahead)) {
+      ++faults;
+      fmt::print("{}\n", *fault);
+    }
+  fmt::print("clock: {} wrong\n", faults);
+  return faults == 0 ? 0 : 1;
+}
+
 // ---- the program ------------------------------------------------------------------------------
 
 struct Options {
@@ -250,6 +313,7 @@ int main(int argc, char** argv) {
   auto* power = app.add_subcommand("power", "Images of the disk after power loss");
   auto* fail = app.add_subcommand("fail", "A read, write, sync, ... that fails");
   auto* storm = app.add_subcommand("storm", "Commands at once, killed at any moment");
+  auto* clock = app.add_subcommand("clock", "Two runs at once whose clocks differ");
   fail->add_option("--every", options.every, "Each call of this kind in turn")
       ->check(CLI::IsMember({"read", "write", "sync", "truncate", "open", "delete", "allocate"}));
   fail->add_option("--stride", options.stride, "Every K-th of them alone")
@@ -266,6 +330,7 @@ int main(int argc, char** argv) {
     command->add_option("--only", options.only, "The one of this number");
   }
   CLI11_PARSE(app, argc, argv);
+  if (clock->parsed()) return try_clocks();
   if (power->parsed()) return try_all(PowerLoss(), options, "power");
   if (storm->parsed()) {
     const Storm storms(tau_max_of_a_storm);

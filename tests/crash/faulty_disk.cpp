@@ -7,6 +7,8 @@
 //                                       kinds: read, write, sync, truncate, open, delete, allocate
 //   HAFF_FAIL_IN=main|worker            only in these processes
 //   HAFF_FAILED=FILE                    made when a call was made to fail
+//   HAFF_CLOCK=SECONDS                  the clock on the wall, as SQLite asks for it, is so much
+//   ahead
 //
 // The record is one for all processes, in the order of what happened (trace.hpp).
 #include <fcntl.h>
@@ -206,6 +208,19 @@ int remove(sqlite3_vfs*, const char* name, int sync_folder) {
   return result;
 }
 
+// ---- the clock --------------------------------------------------------------------------------
+
+// [ms since the beginning of the Julian calendar]
+int now(sqlite3_vfs*, sqlite3_int64* time) {
+  static const sqlite3_int64 ahead = [] {
+    const char* seconds = std::getenv("HAFF_CLOCK");
+    return seconds == nullptr ? 0 : 1000 * std::strtoll(seconds, nullptr, 10);
+  }();
+  const int result = system_below->xCurrentTimeInt64(system_below, time);
+  *time += ahead;
+  return result;
+}
+
 // ---- memory -----------------------------------------------------------------------------------
 
 sqlite3_mem_methods system_memory{};
@@ -231,6 +246,7 @@ const bool installed = [] {
   vfs.szOsFile += static_cast<int>(sizeof(File));
   vfs.xOpen = open;
   vfs.xDelete = remove;
+  vfs.xCurrentTimeInt64 = now;
   return sqlite3_vfs_register(&vfs, 1) == SQLITE_OK;
 }();
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/wait.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -34,11 +35,12 @@ std::string text_of(const std::filesystem::path& file) {
 
 Result run_program(const std::filesystem::path& folder, const std::string& words,
                    const std::string& environment) {
-  const std::string command = fmt::format("cd '{}' && {} timeout -k 1 60 '{}' {} > said 2>&1",
-                                          folder.string(), environment, program, words);
+  static std::atomic<int> number = 0;
+  const std::string said = fmt::format("said-by-{}", ++number);
+  const std::string command = fmt::format("cd '{}' && {} timeout -k 1 60 '{}' {} > {} 2>&1",
+                                          folder.string(), environment, program, words, said);
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-          text_of(folder / "said")};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(folder / said)};
 }
 
 Result shell(const std::filesystem::path& folder, const std::string& words,

@@ -25,10 +25,10 @@ constexpr auto patience = 60s;  // a command that has not ended by then hangs
 // A command on its own, the leader of a group of processes.
 class Process {
  public:
-  Process(const std::filesystem::path& folder, std::string words, int number)
+  Process(const std::filesystem::path& folder, std::string words, int number, int clock)
       : words_(std::move(words)), said_(folder / fmt::format("said-{}", number)) {
-    const std::string line = fmt::format("cd '{}' && exec '{}' {} > '{}' 2>&1", folder.string(),
-                                         program, words_, said_.string());
+    const std::string line = fmt::format("cd '{}' && HAFF_CLOCK={} exec '{}' {} > '{}' 2>&1",
+                                         folder.string(), clock, program, words_, said_.string());
     id_ = fork();
     if (id_ != 0) return;
     setpgid(0, 0);
@@ -87,12 +87,16 @@ constexpr std::array commands{
     "query 'SELECT e, tau, temperature, temperature_se FROM mean_series' --store c.db",
 };
 
+// Each command has a clock of its own. [s ahead]
+constexpr std::array clocks{0, 600, -600, 100'000'000, -100'000'000};
+
 std::optional<std::string> one_round(std::mt19937_64& random, const std::filesystem::path& folder,
                                      int& kills) {
   std::vector<Process> processes;
   processes.reserve(at_once);
   for (int k = 0; k < at_once; ++k)
-    processes.emplace_back(folder, commands[random() % commands.size()], k);
+    processes.emplace_back(folder, commands[random() % commands.size()], k,
+                           clocks[random() % clocks.size()]);
   for (Process& process : processes) {
     std::this_thread::sleep_for(std::chrono::milliseconds(random() % 60));
     if (random() % 3 != 0) {
