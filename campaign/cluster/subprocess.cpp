@@ -25,7 +25,7 @@ std::optional<std::filesystem::path> find_program(const std::string& name) {
   return std::nullopt;
 }
 
-std::optional<Answer> ask(const std::vector<std::string>& words) {
+std::optional<ProgramOutput> ask(const std::vector<std::string>& words) {
   const auto program = find_program(words.front());
   if (!program) return std::nullopt;
   std::array<int, 2> ends{};
@@ -49,20 +49,20 @@ std::optional<Answer> ask(const std::vector<std::string>& words) {
     close(ends[0]);
     throw std::system_error(error, std::generic_category(), "cannot start " + program->string());
   }
-  Answer answer;
+  ProgramOutput output;
   std::array<char, 4096> buffer{};
   for (;;) {
     const ssize_t size = read(ends[0], buffer.data(), buffer.size());
     if (size < 0 && errno == EINTR) continue;
     if (size <= 0) break;
-    answer.out.append(buffer.data(), static_cast<std::size_t>(size));
+    output.out.append(buffer.data(), static_cast<std::size_t>(size));
   }
   close(ends[0]);
   int status = 0;
   while (waitpid(id, &status, 0) < 0 && errno == EINTR) {
   }
-  answer.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-  return answer;
+  output.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  return output;
 }
 
 }  // namespace haff::campaign
