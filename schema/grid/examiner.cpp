@@ -376,11 +376,10 @@ class Examiner {
 
   void fits_in_box(const Placed& particles, double N, double n, int d) const {
     if (N / n >= std::pow(smallest_box, d)) return;
-    const double side = d == 2 ? std::sqrt(N / n) : std::cbrt(N / n);
     throw fault(file_, particles.where,
                 shown(particles.value) + (d == 2 ? " disks" : " particles") + " at n = " + text(n) +
-                    " make a box of side L = " + rounded(side) +
-                    " sigma; expected L >= " + text(smallest_box) +
+                    " have a box of " + rounded(N / n) + " sigma^" + std::to_string(d) +
+                    "; expected a side of at least " + text(smallest_box) +
                     " sigma, N >= " + text(std::ceil(std::pow(smallest_box, d) * n)));
   }
 

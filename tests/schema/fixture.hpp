@@ -1,6 +1,7 @@
 // What the tests of this folder share: a small campaign.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "schema/store/store.hpp"
@@ -53,6 +54,22 @@ inline Status complete(Store& store, const Claim& claim, const std::vector<Sampl
 // Run every equilibration of a store.
 inline void equilibrate(Store& store) {
   while (store.summary().waiting > 0) complete(store, *store.claim(me, "test"));
+}
+
+// The error that something throws, and what it says.
+template <class Work>
+StoreError error_of(Work work) {
+  try {
+    work();
+  } catch (const StoreError& error) {
+    return error;
+  }
+  return StoreError("not refused");
+}
+
+template <class Work>
+std::string refusal(Work work) {
+  return error_of(work).what();
 }
 
 }  // namespace haff::schema

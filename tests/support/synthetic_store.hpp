@@ -15,27 +15,9 @@
 #include "analysis/theory/energy_equation.hpp"
 #include "analysis/theory/enskog_boltzmann.hpp"
 #include "schema/store/store.hpp"
+#include "support/random.hpp"
 
 namespace haff::campaign {
-
-// Normal numbers: splitmix64 and Box-Muller.
-class Gaussian {
- public:
-  explicit Gaussian(std::uint64_t seed) : state_(seed) {}
-  double operator()() {
-    return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform());
-  }
-
- private:
-  double uniform() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (static_cast<double>((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
-  }
-
-  std::uint64_t state_;
-};
 
 // A gas whose energy obeys the energy equation (with the loss of Enskog-Boltzmann theory), and
 // whose a_2 leaves the Gaussian as Enskog and Boltzmann have it and returns with the correlations;
@@ -83,7 +65,7 @@ class SyntheticGas {
  private:
   schema::Job job_;
   double tau_max_;
-  Gaussian gaussian_{job_.seed * 1000003 + static_cast<std::uint64_t>(*job_.e * 1e6)};
+  tests::Normal gaussian_{job_.seed * 1000003 + static_cast<std::uint64_t>(*job_.e * 1e6)};
 };
 
 // What is seen of such a gas where profiles are taken: incompressible theory, with errors.
@@ -167,7 +149,7 @@ class SyntheticProfiles {
 
   schema::Job job_;
   double tau_max_;
-  Gaussian gaussian_{job_.seed * 7919 + 1};
+  tests::Normal gaussian_{job_.seed * 7919 + 1};
 };
 
 // Adds finished realizations of a gas, seeds 1 ... K in place of the job's own.

@@ -7,33 +7,18 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <vector>
+
+#include "support/random.hpp"
 
 using namespace haff::analysis;
 using Vector = std::array<double, 3>;
 
 namespace {
 
-// Portable random numbers: splitmix64 and Box-Muller.
-struct Gaussian {
-  std::uint64_t state;
-
-  double uniform() {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (static_cast<double>((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
-  }
-  double operator()() {
-    const double radius = std::sqrt(-2 * std::log(uniform()));
-    return radius * std::cos(2 * std::numbers::pi * uniform());
-  }
-};
-
 std::vector<Vector> gaussian_velocities(std::size_t count, std::uint64_t seed) {
-  Gaussian next{seed};
+  haff::tests::Normal next{seed};
   std::vector<Vector> v(count);
   for (auto& each : v) each = {next(), next(), next()};
   return v;

@@ -5,31 +5,18 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <stdexcept>
 #include <vector>
 
+#include "support/random.hpp"
 #include "support/relative.hpp"
 
+using haff::tests::Normal;
 using haff::tests::off;
 using namespace haff::analysis;
 using doctest::Approx;
 
 namespace {
-
-// Normal numbers: splitmix64 and Box-Muller.
-struct Normal {
-  std::uint64_t state;
-  double uniform() {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (static_cast<double>((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
-  }
-  double operator()() {
-    return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform());
-  }
-};
 
 // Of 4000 intervals the share that holds the truth is known to 0.34 %. The wanted 93 to 97 % are
 // 5.8 standard errors to either side of the stated 95 %: a false alarm in 10^8 seeds.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "support/random.hpp"
 #include "support/relative.hpp"
 
 using haff::tests::off;
@@ -21,10 +22,8 @@ namespace {
 struct Noise {
   std::uint64_t state;
   double operator()() {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53 - 0.5) * std::sqrt(12.0);
+    return (static_cast<double>(haff::tests::random_bits(state) >> 11) * 0x1p-53 - 0.5) *
+           std::sqrt(12.0);
   }
 };
 

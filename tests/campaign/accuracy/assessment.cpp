@@ -23,7 +23,7 @@ FinishedSeries gas(std::uint32_t particles, std::size_t realizations, double mea
                    double cpu_seconds) {
   FinishedSeries series{
       .job = {.e = 0.9, .n = 0.4, .particles = particles, .observables = {"laguerre"}}, .runs = {}};
-  Gaussian gaussian(particles);
+  tests::Normal gaussian(particles);
   for (std::size_t k = 0; k < realizations; ++k) {
     FinishedRun run{.seed = k + 1, .tau_max = 15, .cpu_seconds = cpu_seconds};
     const double value = mean + deviation * gaussian();
@@ -167,7 +167,7 @@ FinishedSeries correlated(double tau_max, double sample_every, std::uint64_t see
                                 .sample_every = sample_every,
                                 .observables = {"laguerre"}},
                         .runs = {{.seed = 1, .tau_max = tau_max, .cpu_seconds = 1}}};
-  Gaussian gaussian(seed);
+  tests::Normal gaussian(seed);
   double a2_now = gaussian();
   for (double tau = 0; tau <= tau_max; tau += sample_every) {
     series.runs[0].samples.push_back({.tau = tau, .a2 = -0.03 + 0.01 * a2_now});

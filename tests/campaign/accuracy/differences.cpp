@@ -20,7 +20,8 @@ FinishedSeries gas(double e, double mean, double common, double own,
   FinishedSeries series{
       .job = {.e = e, .n = 0.4, .particles = particles, .observables = {"laguerre"}}, .runs = {}};
   for (std::uint64_t seed = 1; seed <= 64; ++seed) {
-    Gaussian shared(seed), private_part(seed * 1000 + static_cast<std::uint64_t>(100 * e));
+    haff::tests::Normal shared(seed),
+        private_part(seed * 1000 + static_cast<std::uint64_t>(100 * e));
     FinishedRun run{.seed = seed, .tau_max = 15};
     const double value = mean + common * shared() + own * private_part();
     for (int tau = 0; tau <= 15; ++tau)

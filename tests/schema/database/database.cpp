@@ -27,21 +27,6 @@ SQLite::Database plain(const std::filesystem::path& path) {
   return {path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE};
 }
 
-template <class Open>
-StoreError error_of(Open open) {
-  try {
-    open();
-  } catch (const StoreError& error) {
-    return error;
-  }
-  return StoreError("not refused");
-}
-
-template <class Open>
-std::string refusal(Open open) {
-  return error_of(open).what();
-}
-
 }  // namespace
 
 TEST_CASE("a new store is marked as one") {

@@ -370,16 +370,17 @@ TEST_CASE("a tau_max map must name the e of its grid, each once") {
 }
 
 TEST_CASE("a box too small, or a machine too small, is refused with numbers") {
-  check_complaint(with("N", "3"),
-                  "g.json: /N: 3 particles at n = 0.4 make a box of side L = 1.96 sigma; expected "
-                  "L >= 2 sigma, N >= 4");
+  check_complaint(
+      with("N", "3"),
+      "g.json: /N: 3 particles at n = 0.4 have a box of 7.5 sigma^3; expected a side of "
+      "at least 2 sigma, N >= 4");
   check_complaint(with("N", "[1000, 3]"),
-                  "g.json: /N/1: 3 particles at n = 0.4 make a box of side L = 1.96 sigma; "
-                  "expected L >= 2 sigma, N >= 4");
+                  "g.json: /N/1: 3 particles at n = 0.4 have a box of 7.5 sigma^3; "
+                  "expected a side of at least 2 sigma, N >= 4");
   CHECK(complaint(with("N", "4")) == "no complaint");
   check_complaint(R"({"n": 0.4, "grids": [{"e": 1, "N": 2, "seeds": 1, "tau_max": 1}]})",
-                  "g.json: /grids/0/N: 2 particles at n = 0.4 make a box of side L = 1.71 sigma; "
-                  "expected L >= 2 sigma, N >= 4");
+                  "g.json: /grids/0/N: 2 particles at n = 0.4 have a box of 5 sigma^3; "
+                  "expected a side of at least 2 sigma, N >= 4");
   check_complaint(with("N", "1e8"),
                   "g.json: /N: 100000000.0 particles need 20 GB; expected at most the 8 GB of this "
                   "machine, and N below 2^28");
@@ -493,9 +494,10 @@ TEST_CASE("a grid may be of disks: d is 3 unless it says 2, and disks have limit
                   "less than close packing, pi/sqrt(12) = 0.907, n below 1.15");
   CHECK(complaint(R"({"d": 3, "e": 0.8, "n": 1.2, "N": 1000, "seeds": 1, "tau_max": 90})") ==
         "no complaint");
-  check_complaint(R"({"d": [2, 3], "e": 0.8, "n": 1, "N": 3, "seeds": 1, "tau_max": 90})",
-                  "g.json: /N: 3 disks at n = 1 make a box of side L = 1.73 sigma; expected L >= 2 "
-                  "sigma, N >= 4");
+  check_complaint(
+      R"({"d": [2, 3], "e": 0.8, "n": 1, "N": 3, "seeds": 1, "tau_max": 90})",
+      "g.json: /N: 3 disks at n = 1 have a box of 3 sigma^2; expected a side of at least "
+      "2 sigma, N >= 4");
 }
 
 // ---- numbers as people write them -------------------------------------------------------------
