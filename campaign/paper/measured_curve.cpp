@@ -11,7 +11,10 @@ namespace haff::campaign {
 double homogeneous_stage(const MeanSeries& series) {
   constexpr double beyond = 1.5;
   const double crossover = analysis::energy_equation_tau_c({.e = series.e, .n = series.n});
-  return std::min(series.tau.back(), 10 * std::ceil(beyond * crossover / 10));
+  // Where most realizations have ended the mean leaps to that of the few that go on.
+  std::size_t last = series.tau.size() - 1;
+  while (last > 0 && 2 * series.realizations[last] < series.most_realizations()) --last;
+  return std::min(series.tau[last], 10 * std::ceil(beyond * crossover / 10));
 }
 
 Curve until(double end, Curve curve) {

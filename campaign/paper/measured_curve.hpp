@@ -6,7 +6,8 @@
 
 namespace haff::campaign {
 
-// tau up to which a figure of the homogeneous stage shows a series: somewhat beyond tau_c.
+// tau up to which a figure of the homogeneous stage shows a series: somewhat beyond tau_c, and no
+// further than half of its realizations go.
 double homogeneous_stage(const MeanSeries& series);
 
 // Only the points at x <= end.

@@ -56,10 +56,10 @@ std::optional<Plot> figure_04(const Averages& averages) {
   for (const MeanTauC& each : choose_tau_c(averages, base_density)) {
     if (each.e != series.e || each.tau_c > end) continue;
     panel.commands.push_back(fmt::format(
-        "set arrow from first {0}, graph 0 to first {0}, graph 1 nohead back lw 1 dt (4,4)",
+        "set arrow from first {0}, graph 0 to first {0}, graph 0.84 nohead back lw 1 dt (4,4)",
         each.tau_c));
     panel.commands.push_back(
-        fmt::format("set label '{{/:Italic τ}}_c' at first {}, graph 0.94 offset character 0.6, 0",
+        fmt::format("set label '{{/:Italic τ}}_c' at first {}, graph 0.79 offset character 0.6, 0",
                     each.tau_c));
   }
   return Plot{.panels = {panel},
