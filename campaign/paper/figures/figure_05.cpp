@@ -50,7 +50,7 @@ std::optional<Plot> figure_05(const Averages& averages) {
   for (Curve& curve : theories(series.e, end)) whole.curves.push_back(std::move(curve));
   // Room for the inset above all curves, and for the legend below.
   const Range range = y_range(whole.curves);
-  whole.y.low = range.low - 0.35 * range.width();
+  whole.y.low = range.low - 0.6 * range.width();
   whole.y.high = range.high + 1.25 * range.width();
 
   Panel inset{.name = "inset",
