@@ -44,7 +44,7 @@ const std::vector<GeneralFigure> figures = {
      profile("G_parallel")},
     {"correlation-perpendicular", "velocity correlation across the separation, at the end",
      profile("G_perpendicular")},
-    {"structure", "structure factor at the end", profile("S")},
+    {"structure", "structure factor at the end", logarithmic(profile("S"))},
 };
 
 }  // namespace

@@ -200,7 +200,7 @@ std::string palette(bool dark_first) {
 std::string colour_box(const std::array<double, 4>& frame, const std::string& label) {
   return fmt::format(
       "set colorbox user origin screen {}, screen {} size screen 0.012, screen {}\n"
-      "set cblabel {}\n",
+      "set cblabel {} offset character 1, 0\n",
       frame[1] + 0.012, frame[2], frame[3] - frame[2], in_quotes(label));
 }
 
