@@ -101,6 +101,18 @@ TEST_CASE("captions: of densities the restitution is common; what is missing is 
         "1 000, mean of 3 realizations (1 planned not done). haff 0.1.0 (1a2b).");
 }
 
+TEST_CASE("figures 4 and 5: no further than half of the realizations go") {
+  const MeanSeries gas{.e = 0.9,
+                       .n = 0.4,
+                       .particles = 1000,
+                       .realizations = {8, 8, 4, 2},
+                       .tau = {0, 100, 150, 160}};
+  CHECK(homogeneous_stage(gas) == 150);
+  const MeanSeries whole{
+      .e = 0.9, .n = 0.4, .particles = 1000, .realizations = {1, 1}, .tau = {0, 160}};
+  CHECK(homogeneous_stage(whole) == 160);
+}
+
 TEST_CASE("figure 7: smoothed over the paper's windows, against tau/tau_c") {
   const auto plot = figure_07(read_averages(first_campaign()));
   REQUIRE(plot);
