@@ -15,9 +15,11 @@ int coarse_cells(double particles, int d) {
 }
 
 CoarseGrained coarse_grained(std::span<const Vector> position, std::span<const Vector> velocity,
-                             double box, int cells, int d) {
-  if (position.size() != velocity.size())
-    throw std::invalid_argument("coarse-grained fields need as many positions as velocities");
+                             double box, int cells, int d, std::span<const double> mass) {
+  if (position.size() != velocity.size() || (!mass.empty() && mass.size() != position.size()))
+    throw std::invalid_argument(
+        "coarse-grained fields need as many positions as velocities and masses");
+  const auto mass_of = [&](std::size_t i) { return mass.empty() ? 1 : mass[i]; };
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Mesh mesh{.box = box, .cells = cells, .d = d};
   const auto axes = static_cast<std::size_t>(d);
@@ -31,20 +33,23 @@ CoarseGrained coarse_grained(std::span<const Vector> position, std::span<const V
   for (const Vector& r : position)
     cell.push_back(static_cast<std::uint32_t>(mesh.number(mesh.cell_of(r))));
 
+  std::vector<double> mass_in(mesh.size());
   for (std::size_t i = 0; i < cell.size(); ++i) {
     ++field.density[cell[i]];
-    for (std::size_t a = 0; a < axes; ++a) field.velocity[axes * cell[i] + a] += velocity[i][a];
+    mass_in[cell[i]] += mass_of(i);
+    for (std::size_t a = 0; a < axes; ++a)
+      field.velocity[axes * cell[i] + a] += mass_of(i) * velocity[i][a];
   }
   for (std::size_t c = 0; c < mesh.size(); ++c)
     for (std::size_t a = 0; a < axes; ++a) {
       double& u = field.velocity[axes * c + a];
-      u = field.density[c] > 0 ? u / field.density[c] : none;
+      u = field.density[c] > 0 ? u / mass_in[c] : none;
     }
   // Deviations from u itself: <v^2> - u^2 would lose digits where the flow is fast.
   for (std::size_t i = 0; i < cell.size(); ++i)
     for (std::size_t a = 0; a < axes; ++a) {
       const double deviation = velocity[i][a] - field.velocity[axes * cell[i] + a];
-      field.temperature[cell[i]] += deviation * deviation;
+      field.temperature[cell[i]] += mass_of(i) * deviation * deviation;
     }
   const double volume = std::pow(mesh.cell_side(), d);
   for (std::size_t c = 0; c < mesh.size(); ++c) {

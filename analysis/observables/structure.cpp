@@ -3,76 +3,17 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 
 #include "analysis/observables/fourier.hpp"
+#include "analysis/observables/sets.hpp"
+#include "analysis/observables/sharing.hpp"
 
 namespace haff::analysis {
 namespace {
 
 constexpr int most_cells = 128;
 constexpr double smallest_box = 8;  // [sigma]: two shells
-
-// The two mesh points nearest to x along an axis, and the shares they get.
-struct Shares {
-  std::array<int, 2> point;
-  std::array<double, 2> share;
-};
-
-Shares shares(double x, const Mesh& mesh) {
-  const double place = x * (mesh.cells / mesh.box);
-  const int below = mesh.place(x);
-  const double above = place - below;
-  return {{below, below + 1 == mesh.cells ? 0 : below + 1}, {1 - above, above}};
-}
-
-void share_out(std::span<const Vector> position, const Mesh& mesh, std::span<double> field) {
-  std::fill(field.begin(), field.end(), 0.0);
-  for (const Vector& r : position) {
-    const Shares x = shares(r[0], mesh), y = shares(r[1], mesh);
-    const Shares z = mesh.d == 3 ? shares(r[2], mesh) : Shares{{0, 0}, {1, 0}};
-    for (std::size_t i = 0; i < 2; ++i)
-      for (std::size_t j = 0; j < 2; ++j)
-        for (std::size_t k = 0; k < (mesh.d == 3 ? 2 : 1); ++k)
-          field[mesh.number({x.point[i], y.point[j], z.point[k]})] +=
-              x.share[i] * y.share[j] * z.share[k];
-  }
-}
-
-// What sharing out does along one axis to the power of a mode, and what is folded into the power
-// of uncorrelated particles.
-struct Distortion {
-  double power = 1;   // sinc^4
-  double folded = 1;  // 1 - (2/3) sin^2
-};
-
-Distortion distortion(int wave, int cells) {
-  if (wave == 0) return {};
-  const double x = std::numbers::pi * wave / cells;
-  const double sine = std::sin(x);
-  const double sinc = sine / x;
-  return {sinc * sinc * sinc * sinc, 1 - 2.0 / 3 * sine * sine};
-}
-
-// Sets of cells that grow together; the root of a set is its smallest cell.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t root(std::size_t cell) {
-    while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
-    return cell;
-  }
-  void join(std::size_t one, std::size_t other) {
-    const auto [low, high] = std::minmax({root(one), root(other)});
-    parent_[high] = low;
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 }  // namespace
 
@@ -81,11 +22,10 @@ StructureFactor structure_factor(std::span<const Vector> position, double box, i
     throw std::invalid_argument("a structure factor needs particles in a box of 8 sigma");
   const Mesh mesh{.box = box, .cells = transform_cells(box, most_cells), .d = d};
   Fourier fourier(mesh);
-  share_out(position, mesh, fourier.field());
+  share_out(position, mesh, fourier.field(), [](std::size_t) { return 1.0; });
   fourier.forward();
 
-  std::vector<Distortion> axis;
-  for (int wave = 0; wave <= mesh.cells / 2; ++wave) axis.push_back(distortion(wave, mesh.cells));
+  const auto axis = distortions(mesh.cells);
   const auto at = [&](int wave) { return axis[static_cast<std::size_t>(std::abs(wave))]; };
 
   const auto shells = static_cast<std::size_t>(mesh.cells / 4);

@@ -9,6 +9,7 @@
 
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/curves/vocabulary.hpp"
+#include "schema/grid/observables.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -39,6 +40,11 @@ std::string meaning_of(const std::string& name) {
   if (derived != derived_columns.end()) return std::string(derived->meaning);
   const auto found = std::ranges::find(meanings, name, &Meaning::name);
   return found == meanings.end() ? std::string() : std::string(found->meaning);
+}
+
+std::string curve_meaning(const std::string& profile) {
+  const schema::Curve* curve = schema::find_curve(profile);
+  return curve == nullptr ? std::string() : std::string(curve->meaning);
 }
 
 bool has_rows(const schema::Reader& store, const std::string& sql) {
@@ -76,7 +82,8 @@ Inventory inventory_of(const schema::Reader& store) {
         {.name = name,
          .variable = profile_variable(name),
          .values = values_of(store, fmt::format("SELECT DISTINCT tau FROM {} ORDER BY tau",
-                                                profile_rows(words, name)))});
+                                                profile_rows(words, name))),
+         .meaning = curve_meaning(name)});
   inventory.quantities = {
       {.name = "tau_c", .meaning = "collisions until T is twice what Haff's law says"},
       {.name = "a2, a3, a4", .meaning = "mean over tau 5 to 15; a2@3:8 over another window"},

@@ -14,6 +14,7 @@ struct Inventory {
   };
   struct Profile {
     std::string name, variable, values;  // tau at which it was taken
+    std::string meaning;
   };
   struct Parameter {
     std::string name, values;

@@ -11,6 +11,8 @@
 #include "analysis/theory/cooling.hpp"
 #include "analysis/theory/enskog.hpp"
 #include "analysis/theory/enskog_boltzmann.hpp"
+#include "analysis/theory/self_diffusion.hpp"
+#include "analysis/theory/spectrum.hpp"
 #include "campaign/curves/theory_curves.hpp"
 #include "campaign/curves/theory_point.hpp"
 
@@ -123,6 +125,45 @@ bool is_heated(const TheoryPoint& at) {
   return at.gas.heating > 0;
 }
 
+// What Enskog's theory knows of an elastic gas: the contact value, where g begins, self-diffusion, and
+// how velocities are forgotten. Of gases that cool slowly it is the first guess.
+std::vector<TheoryLine> lines_of_elastic_gas(const std::string& profile, const TheoryPoint& at,
+                                             std::span<const double> x) {
+  if (at.roughness || at.mixture) return {};
+  TheoryLine line = line_named(profile + "_enskog");
+  line.legend = "Enskog's theory, elastic gas";
+  if (profile == "g") {
+    line.legend = "contact value, equation of state";
+    line.look = Look::dashed;
+  }
+  for (const double each : x)
+    line.values.push_back(profile == "g"           ? analysis::contact_value(at.n, at.d)
+                          : profile == "diffusion" ? analysis::self_diffusion_per_collision(at.n, at.d)
+                                                   : analysis::enskog_autocorrelation(each, at.d));
+  return {line};
+}
+
+// Equipartition, and the fluctuating hydrodynamics of the cooling gas (energy_spectrum.hpp).
+std::vector<TheoryLine> spectrum(const std::string& profile, const TheoryPoint& at,
+                                 std::span<const double> k) {
+  if (at.roughness || at.other_law || at.is_shuffled || is_heated(at)) return {};
+  const bool is_parallel = profile == "E_parallel";
+  TheoryLine equal = line_named(profile + "_equipartition"), hydrodynamic = line_named(profile);
+  equal.legend = "equipartition at Haff's temperature";
+  equal.look = Look::dashed;
+  hydrodynamic.legend = "fluctuating hydrodynamics";
+  const double temperature = analysis::haff_temperature(at.tau, at.e, at.d);
+  for (const double each : k) {
+    equal.values.push_back(
+        analysis::equilibrium_spectrum(each, at.n, temperature, is_parallel, at.d));
+    if (at.e < 1)
+      hydrodynamic.values.push_back(equal.values.back() *
+                                    analysis::spectrum_ratio({.e = at.e, .n = at.n, .d = at.d}, each, at.tau, is_parallel));
+  }
+  if (at.mixture || !(at.e < 1)) return {equal};
+  return {equal, hydrodynamic};
+}
+
 // A thermostat with constant e: what the gas comes to rest at.
 void add_heated_a2(const TheoryPoint& at, std::size_t count, std::vector<TheoryLine>& lines) {
   if (!is_heated(at) || !std::holds_alternative<analysis::ConstantRestitution>(at.gas.law)) return;
@@ -206,9 +247,12 @@ std::vector<TheoryLine> theory_of_profile(const std::string& profile, const sche
     for (const double c : x) gaussian.values.push_back(std::exp(-c * c));
     return {gaussian};
   }
-  if (!(tau > 0)) return {};
   TheoryPoint at = point_of(job);
   at.tau = tau;
+  if (profile == "g" || profile == "diffusion" || profile == "vacf")
+    return lines_of_elastic_gas(profile, at, x);
+  if (profile == "E_perpendicular" || profile == "E_parallel") return spectrum(profile, at, x);
+  if (!(tau > 0)) return {};
   return lines_of(profile, at, x);
 } catch (const TheoryError&) {
   return {};

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <variant>
 
+#include "schema/grid/observables.hpp"
+
 namespace haff::campaign {
 namespace {
 
@@ -146,9 +148,8 @@ Vocabulary vocabulary_of(const schema::Reader& store) {
 }
 
 std::string profile_variable(std::string_view profile) {
-  if (profile == "rho") return "c";
-  if (profile.starts_with("G_")) return "r";
-  return profile == "S" ? "k" : "x";
+  const schema::Curve* curve = schema::find_curve(profile);
+  return curve == nullptr ? "x" : std::string(curve->variable);
 }
 
 std::vector<std::string> names_in(std::string_view sql) {

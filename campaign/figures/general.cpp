@@ -20,6 +20,11 @@ Question logarithmic(Question question) {
   return question;
 }
 
+Question doubly_logarithmic(Question question) {
+  question.log_x = question.log_y = true;
+  return question;
+}
+
 Question profile(const char* y) {
   return {.y = y, .where = at_the_end, .theory = true, .theory_up_to = most_with_theory};
 }
@@ -45,6 +50,19 @@ const std::vector<GeneralFigure> figures = {
     {"correlation-perpendicular", "velocity correlation across the separation, at the end",
      profile("G_perpendicular")},
     {"structure", "structure factor at the end", logarithmic(profile("S"))},
+    {"pair-distribution", "pair distribution at the end", profile("g")},
+    {"spectrum-transverse", "energy spectrum of transverse modes at the end",
+     doubly_logarithmic(profile("E_perpendicular"))},
+    {"spectrum-longitudinal", "energy spectrum of longitudinal modes at the end",
+     doubly_logarithmic(profile("E_parallel"))},
+    {"tail", "tail of the velocity distribution at the end", logarithmic(profile("tail"))},
+    {"cluster-sizes", "particles in clusters of each size at the end",
+     doubly_logarithmic(profile("cluster_sizes"))},
+    {"msd", "mean square displacement from each waiting time",
+     doubly_logarithmic({.y = "msd", .theory_up_to = most_with_theory})},
+    {"vacf",
+     "velocity autocorrelation from each waiting time",
+     {.y = "vacf", .theory = true, .theory_up_to = most_with_theory}},
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "campaign/base/process/cpu_time.hpp"
 #include "campaign/base/process/signals.hpp"
 #include "campaign/base/text/job_text.hpp"
+#include "campaign/job/measurement.hpp"
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/model.hpp"
 #include "campaign/state/restore.hpp"
@@ -40,6 +41,7 @@ Attempt::Attempt(schema::Store& store, const schema::Claim& claim, const Reporte
       claim_(claim),
       reporter_(reporter),
       threads_(threads),
+      diffusion_(claim.job),
       cpu_at_start_(cpu_seconds()) {}
 
 std::optional<engine::State> Attempt::stored_state() const {
@@ -69,6 +71,7 @@ void Attempt::begin(const engine::State& state) {
   views_ = {};
   gas_.emplace(model_of(job()), state, engine::SearchBackend::simd,
                engine::Threads{.count = threads_});
+  diffusion_.begin(*gas_, state);
   if (gas_->collisions() > 0) log(fmt::format("goes on from tau = {:.6g}", tau()));
   speed_from_ = gas_->collisions();
   speed_since_ = renewed_ = Clock::now();
@@ -77,7 +80,9 @@ void Attempt::begin(const engine::State& state) {
 
 bool Attempt::advance_to(std::int64_t collisions) {
   while (gas_->collisions() < collisions) {
-    gas_->run_to(std::min(collisions, gas_->collisions() + stretch));
+    gas_->run_to(
+        std::min({collisions, gas_->collisions() + stretch, diffusion_.next_look()}));
+    if (gas_->collisions() == diffusion_.next_look()) diffusion_.look(*gas_);
     report_progress();
     if (is_asked_to_leave() && !may_go_on_to_synchronization()) return false;
   }
@@ -87,8 +92,10 @@ bool Attempt::advance_to(std::int64_t collisions) {
 void Attempt::sample(double tau) {
   schema::Sample sample = measure(*gas_, job(), tau, samples_);
   const Views taken = view(*gas_, job(), sample);
+  const auto diffused = diffusion_.sample(*gas_, tau);
   samples_.push_back(sample);
   views_.profiles.insert(views_.profiles.end(), taken.profiles.begin(), taken.profiles.end());
+  views_.profiles.insert(views_.profiles.end(), diffused.begin(), diffused.end());
   views_.fields.insert(views_.fields.end(), taken.fields.begin(), taken.fields.end());
 }
 
@@ -196,7 +203,9 @@ schema::Commit Attempt::pending_commit(double tau) const {
 }
 
 schema::Checkpoint Attempt::checkpoint(double tau) const {
-  return {.tau = tau, .collisions = gas_->collisions(), .state = encode(gas_->state())};
+  engine::State state = gas_->state();
+  diffusion_.store(state);
+  return {.tau = tau, .collisions = gas_->collisions(), .state = encode(state)};
 }
 
 }  // namespace haff::campaign

@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "campaign/job/measurement.hpp"
+#include "campaign/job/diffusion.hpp"
 #include "campaign/job/report.hpp"
+#include "campaign/job/views.hpp"
 #include "engine/simulation.hpp"
 #include "schema/store/store.hpp"
 
@@ -78,6 +79,7 @@ class Attempt {
   std::vector<schema::Sample> samples_;
   std::size_t committed_ = 0;  // of samples_, or in the store from an earlier attempt
   Views views_;                // since the last commit
+  Diffusion diffusion_;
 
   double cpu_at_start_;
   Clock::time_point reported_, renewed_, speed_since_;

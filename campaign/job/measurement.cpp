@@ -4,26 +4,16 @@
 #include <cmath>
 #include <string_view>
 
-#include "analysis/observables/coarse_grained.hpp"
-#include "analysis/observables/distribution.hpp"
 #include "analysis/observables/equilibrium.hpp"
 #include "analysis/observables/moments.hpp"
 #include "analysis/observables/species.hpp"
-#include "analysis/observables/structure.hpp"
-#include "analysis/observables/velocity_correlations.hpp"
 #include "analysis/theory/cooling.hpp"
-#include "analysis/theory/correlations.hpp"
-#include "campaign/job/timetable.hpp"
+#include "campaign/job/asked.hpp"
 #include "campaign/state/model.hpp"
 #include "engine/initial.hpp"
 
 namespace haff::campaign {
 namespace {
-
-bool asks_for(const schema::Job& job, std::string_view observable) {
-  return std::find(job.observables.begin(), job.observables.end(), observable) !=
-         job.observables.end();
-}
 
 std::optional<double> if_finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -58,18 +48,6 @@ void measure_temperature(schema::Sample& sample, double temperature, double viri
                                                  job.particles, elapsed, job.d));
 }
 
-// Velocities v of a simple gas, sqrt(m) v of a mixture, whose temperature and moments are then
-// those of all particles alike, and Gaussian in equilibrium.
-std::vector<engine::Vector> weighted_velocities(const engine::Simulation& gas,
-                                                const std::optional<engine::Mixture>& mixture) {
-  auto velocities = gas.velocities();
-  if (!mixture) return velocities;
-  const auto ids = gas.ids();
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    for (double& v : velocities[i]) v *= std::sqrt(mixture->mass_of(ids[i]));
-  return velocities;
-}
-
 void measure_species(schema::Sample& sample, const engine::Simulation& gas,
                      const engine::Mixture& mixture, const schema::Job& job) {
   std::vector<bool> is_second;
@@ -86,58 +64,6 @@ void measure_laguerre(schema::Sample& sample, const analysis::LaguerreCoefficien
   sample.a4 = if_finite(a[4]);
   sample.a5 = if_finite(a[5]);
   sample.a6 = if_finite(a[6]);
-}
-
-// A gas at one moment. Velocities are scaled by 2^exponent: `power` 1 turns a velocity, 2 an
-// energy into true units, exactly.
-struct Snapshot {
-  Snapshot(const engine::Simulation& gas, const schema::Job& job)
-      : position(gas.positions()),
-        velocity(gas.velocities()),
-        exponent(gas.exponent()),
-        box(engine::box_side(job.n, job.particles, job.d)) {}
-
-  std::vector<double> unscaled(std::vector<double> values, int power) const {
-    for (double& value : values) value = std::ldexp(value, -power * exponent);
-    return values;
-  }
-
-  std::vector<engine::Vector> position, velocity;
-  int exponent;
-  double box;
-};
-
-void view_correlations(const Snapshot& gas, const schema::Job& job, schema::Sample& sample,
-                       Views& views) {
-  const double k_max = analysis::cutoff_wavenumber(job.n, analysis::cutoff_b, job.d);
-  const auto g = analysis::velocity_correlations(gas.position, gas.velocity, gas.box, k_max, job.d);
-  views.profiles.push_back({"G_parallel", sample.tau, g.r, gas.unscaled(g.parallel, 2)});
-  views.profiles.push_back({"G_perpendicular", sample.tau, g.r, gas.unscaled(g.perpendicular, 2)});
-  sample.correlation_trace = std::ldexp(g.trace, -2 * gas.exponent);
-}
-
-void view_profiles(const Snapshot& gas, const schema::Job& job, schema::Sample& sample,
-                   Views& views) {
-  if (asks_for(job, "distribution")) {
-    auto speeds = analysis::speed_distribution(gas.velocity, job.d);
-    views.profiles.push_back({"rho", sample.tau, std::move(speeds.c), std::move(speeds.rho)});
-  }
-  if (asks_for(job, "correlations")) view_correlations(gas, job, sample, views);
-  if (asks_for(job, "structure")) {
-    auto structure = analysis::structure_factor(gas.position, gas.box, job.d);
-    views.profiles.push_back({"S", sample.tau, std::move(structure.k), std::move(structure.value)});
-  }
-  if (asks_for(job, "clusters"))
-    sample.largest_cluster = analysis::largest_cluster(gas.position, gas.box, job.d);
-}
-
-void view_fields(const Snapshot& gas, const schema::Job& job, double tau, Views& views) {
-  const int cells = analysis::coarse_cells(job.particles, job.d);
-  const auto fluid = analysis::coarse_grained(gas.position, gas.velocity, gas.box, cells, job.d);
-  views.fields.push_back({"density", tau, cells, 1, gas.box, fluid.density});
-  views.fields.push_back({"velocity", tau, cells, job.d, gas.box, gas.unscaled(fluid.velocity, 1)});
-  views.fields.push_back(
-      {"temperature", tau, cells, 1, gas.box, gas.unscaled(fluid.temperature, 2)});
 }
 
 }  // namespace
@@ -168,16 +94,6 @@ schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double t
   }
   if (asks_for(job, "laguerre")) measure_laguerre(sample, moments.laguerre);
   return sample;
-}
-
-Views view(const engine::Simulation& gas, const schema::Job& job, schema::Sample& sample) {
-  Views views;
-  const bool profiles = has_profiles(job, sample.tau), fields = has_fields(job, sample.tau);
-  if (!profiles && !fields) return views;
-  const Snapshot snapshot(gas, job);
-  if (profiles) view_profiles(snapshot, job, sample, views);
-  if (fields) view_fields(snapshot, job, sample.tau, views);
-  return views;
 }
 
 schema::Results results(const std::vector<schema::Sample>& samples, const schema::Job& job) {

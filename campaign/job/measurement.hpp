@@ -21,16 +21,6 @@ namespace haff::campaign {
 schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double tau,
                        std::span<const schema::Sample> earlier);
 
-// What the whole gas shows now, beside a sample.
-struct Views {
-  std::vector<schema::Profile> profiles;
-  std::vector<schema::Field> fields;
-};
-
-// The profiles and fields that the job takes with this sample, none at most tau. Fills those
-// columns of the sample that are taken with profiles.
-Views view(const engine::Simulation& gas, const schema::Job& job, schema::Sample& sample);
-
 // The end of the homogeneous stage, from all samples of a job.
 schema::Results results(const std::vector<schema::Sample>& samples, const schema::Job& job);
 

@@ -9,6 +9,7 @@
 
 #include "campaign/base/process/cpu_time.hpp"
 #include "campaign/job/measurement.hpp"
+#include "campaign/job/views.hpp"
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/model.hpp"
 #include "engine/initial.hpp"

@@ -5,9 +5,12 @@
 #include <utility>
 
 #include "analysis/observables/coarse_grained.hpp"
+#include "analysis/observables/pair_distribution.hpp"
+#include "analysis/observables/tail.hpp"
 #include "campaign/job/timetable.hpp"
 #include "engine/initial.hpp"
 #include "engine/simulation.hpp"
+#include "schema/grid/observables.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -93,9 +96,30 @@ double profile_points(const schema::Job& job, double box) {
   for (const std::string& observable : job.observables) {
     if (observable == "distribution") points += 40;  // bins of 0.1 up to some four thermal speeds
     if (observable == "correlations") points += 2 * std::floor(mesh_cells(box) / 2);
-    if (observable == "structure") points += std::floor(mesh_cells(box) / 4);
+    if (observable == "structure")
+      points += std::floor(mesh_cells(box) / 4) * (job.effects.contains("mixture") ? 4 : 1);
+    if (observable == "energy_spectrum") points += 3 * std::floor(mesh_cells(box) / 4);
+    if (observable == "pair_distribution")
+      points += (std::min(analysis::pair_reach, box / 2) - 1) / analysis::pair_bin *
+                (job.effects.contains("mixture") ? 3 : 1);
+    if (observable == "tail") points += analysis::tail_bins;
+    if (observable == "cluster_sizes") points += std::log2(job.particles) + 2;
   }
   return points;
+}
+
+// Of each sample, msd with diffusion, and vacf.
+double diffusion_points(const schema::Job& job) {
+  double points = 0;
+  for (const std::string& observable : job.observables)
+    if (schema::waiting_time(observable)) points += observable.starts_with("msd") ? 2 : 1;
+  return points;
+}
+
+// In the state: image numbers, and positions and velocities of every waiting time.
+double diffusion_bytes(const schema::Job& job) {
+  const double points = diffusion_points(job);
+  return points > 0 ? (24 + 48 * points) * job.particles : 0;
 }
 
 double field_bytes(const schema::Job& job) {
@@ -117,6 +141,7 @@ double view_bytes(const schema::Job& job) {
   for (const std::string& observable : job.observables) {
     if (observable == "correlations") arrays = std::max(arrays, (job.d + 4.0) * cells);
     if (observable == "structure") arrays = std::max(arrays, 2 * cells);
+    if (observable == "energy_spectrum") arrays = std::max(arrays, (job.d + 2.0) * cells);
     if (schema::is_field(observable)) arrays = std::max(arrays, 2 * field_bytes(job));
   }
   return arrays + 52.0 * job.particles;
@@ -160,7 +185,7 @@ double Forecast::cpu_seconds(const schema::Planned& plan) {
 
 double Forecast::memory_bytes(const schema::Job& job) {
   return program_bytes + sizes_of(job).engine * job.particles +
-         std::max(storing_bytes * job.particles, view_bytes(job));
+         std::max(storing_bytes * job.particles, view_bytes(job)) + 3 * diffusion_bytes(job);
 }
 
 const Sizes& Forecast::sizes_of(const schema::Job& job) {
@@ -172,8 +197,9 @@ const Sizes& Forecast::sizes_of(const schema::Job& job) {
 double Forecast::disk_bytes(const schema::Planned& plan) {
   const Counts counts = counts_of(plan);
   const double state = counts.commits > 0 ? sizes_of(plan.job).state : 0;
-  return job_bytes + state * plan.job.particles + sample_bytes * counts.samples +
+  return job_bytes + state * plan.job.particles + (state > 0 ? diffusion_bytes(plan.job) : 0) + sample_bytes * counts.samples +
          counts.profiles * profile_row_bytes * profile_points(plan.job, box_of(plan.job)) +
+         counts.samples * profile_row_bytes * diffusion_points(plan.job) +
          counts.fields * field_bytes(plan.job);
 }
 

@@ -8,9 +8,11 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "schema/grid/effects.hpp"
 #include "schema/grid/job.hpp"
+#include "schema/grid/observables.hpp"
 #include "schema/grid/rules.hpp"
 
 namespace haff::schema {
@@ -19,11 +21,6 @@ namespace {
 
 // In a smaller box a sphere could meet another one and its image at once. [sigma]
 constexpr double smallest_box = 2;
-
-// What the two observables need for two shells of separations or of modes: analysis/
-// velocity_correlations.cpp and structure.cpp refuse smaller boxes. [sigma]
-constexpr double correlations_box = 4;
-constexpr double structure_box = 8;
 
 // The engine keeps a particle's number in 28 bits, beside four bits about its cell.
 constexpr double most_particles = 0x1p28;
@@ -36,6 +33,9 @@ constexpr double most_samples = 1e7;
 
 // A plan takes 1 kB of memory and 1 kB of the store for each job.
 constexpr double most_jobs = 2e6;
+
+// Each waiting time keeps 48 bytes of every particle, in memory and in the state.
+constexpr std::size_t most_waiting_times = 16;
 
 // Each is a series of its own, and a line of a plan.
 constexpr double most_effects = 10'000;
@@ -145,14 +145,6 @@ class Examiner {
       }
     collides_between_shuffles(source, effects);
     has_both_species(source, effects);
-    for (const Placed& observable : items(source["observables"])) {
-      const auto name = observable.value.get<std::string>();
-      if (!asked(effects, "mixture").empty() && (is_profile(name) || is_field(name)))
-        throw fault(file_, observable.where,
-                    shown(observable.value) +
-                        " is of equal spheres; with a mixture expected \"temperature\" or "
-                        "\"laguerre\"");
-    }
   }
 
   // How far each e is run, in the order of e.
@@ -230,6 +222,16 @@ class Examiner {
                           text(sample_every));
     };
     if (std::any_of(names.begin(), names.end(), is_profile)) belongs(source["profiles_every"]);
+    std::set<double> waiting_times;
+    for (const Placed& item : items(source["observables"])) {
+      const auto waiting = waiting_time(item.value.get<std::string>());
+      if (!waiting) continue;
+      belongs({.where = item.where, .value = *waiting});
+      if (waiting_times.insert(*waiting).second && waiting_times.size() > most_waiting_times)
+        throw fault(file_, item.where,
+                    shown(item.value) + " is one waiting time too many; expected at most " +
+                        std::to_string(most_waiting_times));
+    }
     if (std::none_of(names.begin(), names.end(), is_field)) return;
     const auto moments = source.find("fields_at");
     if (!moments)
@@ -387,9 +389,7 @@ class Examiner {
                                 int d) const {
     for (const Placed& observable : items(source["observables"])) {
       const auto name = observable.value.get<std::string>();
-      const double least = name == "structure"      ? structure_box
-                           : name == "correlations" ? correlations_box
-                                                    : 0;
+      const double least = find_observable(name)->widest_refused_box;
       if (N / n > std::pow(least, d)) continue;
       throw fault(file_, observable.where,
                   shown(observable.value) + " needs a box wider than " + text(least) +

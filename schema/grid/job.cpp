@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "schema/grid/effects.hpp"
+#include "schema/grid/observables.hpp"
 
 namespace haff::schema {
 
@@ -77,12 +78,13 @@ std::string series_identity(Job job) {
 }
 
 bool is_profile(std::string_view observable) {
-  return observable == "distribution" || observable == "correlations" ||
-         observable == "structure" || observable == "clusters";
+  const Observable* found = find_observable(observable);
+  return found != nullptr && found->taken == Taken::with_profiles;
 }
 
 bool is_field(std::string_view observable) {
-  return observable == "fields";
+  const Observable* found = find_observable(observable);
+  return found != nullptr && found->taken == Taken::with_fields;
 }
 
 std::string observables_text(const std::vector<std::string>& observables) {

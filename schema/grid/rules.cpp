@@ -109,7 +109,7 @@ std::vector<std::string> enumerated(const Json& rule) {
   if (rule.contains("enum")) return rule["enum"].get<std::vector<std::string>>();
   if (rule.contains("anyOf"))
     for (const Json& alternative : rule["anyOf"])
-      if (resolved(alternative).contains("enum")) return enumerated(resolved(alternative));
+      if (auto words = enumerated(resolved(alternative)); !words.empty()) return words;
   return {};
 }
 

@@ -26,8 +26,12 @@ namespace {
 void print_list(const Inventory& inventory) {
   TextTable columns({{"column", Align::left}, {"what", Align::left}});
   for (const auto& each : inventory.columns) columns.add({each.name, each.meaning});
-  TextTable profiles({{"profile", Align::left}, {"of", Align::left}, {"at tau", Align::left}});
-  for (const auto& each : inventory.profiles) profiles.add({each.name, each.variable, each.values});
+  TextTable profiles({{"profile", Align::left},
+                      {"of", Align::left},
+                      {"what", Align::left},
+                      {"at tau", Align::left}});
+  for (const auto& each : inventory.profiles)
+    profiles.add({each.name, each.variable, each.meaning, each.values});
   TextTable quantities({{"quantity", Align::left}, {"what", Align::left}});
   for (const auto& each : inventory.quantities) quantities.add({each.name, each.meaning});
   TextTable parameters({{"parameter", Align::left}, {"values", Align::left}});

@@ -325,8 +325,10 @@ TEST_CASE("a value of the wrong type or out of range is shown with what was expe
       "g.json: /observables/0: \"laguere\" is not accepted; did you mean \"laguerre\"?");
   check_complaint(with("observables", "[\"pressure\"]"),
                   "g.json: /observables/0: \"pressure\" is not accepted; expected one of "
-                  "\"temperature\", \"laguerre\", \"distribution\", \"correlations\", "
-                  "\"structure\", \"clusters\", \"fields\"");
+                  "\"temperature\", \"laguerre\", \"distribution\", \"tail\", "
+                  "\"correlations\", \"structure\", \"pair_distribution\", "
+                  "\"energy_spectrum\", \"clusters\", \"cluster_sizes\", \"msd\", "
+                  "\"vacf\", \"fields\"");
   check_complaint(with("observables", "[3]"),
                   "g.json: /observables/0: 3 is not accepted; expected the name of an observable");
 }
@@ -627,6 +629,21 @@ TEST_CASE("observables that need a larger box are refused") {
           "observables": ["temperature", "correlations"]})",
       "g.json: /observables/1: \"correlations\" needs a box wider than 4 sigma, which 6 particles "
       "at n = 0.4 do not fill; expected N above 6.4");
+}
+
+TEST_CASE("waiting times of msd and vacf are samples of the run, spelled in one way, and few") {
+  CHECK(complaint(with("observables", R"(["msd", "msd@20", "vacf@0.5"])")) ==
+        "g.json: /observables/2: 0.5 falls between samples; expected a multiple of sample_every = 1");
+  CHECK(complaint(with("observables", R"("msd@20.0")")).find("/observables: \"msd@20.0\" is not") !=
+        std::string::npos);
+  CHECK(complaint(with("observables", R"("laguerre@20")")).find("is not accepted") !=
+        std::string::npos);
+  CHECK(complaint(with("observables", R"("msd@1000")")).find("1000 is beyond the run") !=
+        std::string::npos);
+  std::string many = R"(["msd")";
+  for (int tau = 1; tau <= 16; ++tau) many += ", \"vacf@" + std::to_string(tau) + '"';
+  CHECK(complaint(with("observables", many + "]")) ==
+        "g.json: /observables/16: \"vacf@16\" is one waiting time too many; expected at most 16");
 }
 
 TEST_CASE("a target without its standard error is refused") {

@@ -1,0 +1,33 @@
+// Clusters of particles, by their distances alone: two belong to one cluster if they are closer than
+// a bond, or both belong to a cluster with a third one.
+//
+// F. H. Stillinger, J. Chem. Phys. 38, 1486 (1963); of cooling granular gases S. Luding and H. J.
+// Herrmann, Chaos 9, 673 (1999), cond-mat/9910089. What comes out depends on the length of the bond:
+// in a homogeneous fluid of n = 0.4 most particles are one cluster already, at n = 0.05 two in
+// three are alone. largest_cluster (structure.hpp) asks for density instead.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "analysis/observables/mesh.hpp"
+
+namespace haff::analysis {
+
+// The length of a bond. [distance of contact]
+inline constexpr double bond = 1.1;
+
+struct ClusterSizes {
+  std::vector<double> size;   // the smallest of each class: 1, 2, 4, 8 ... up to N
+  std::vector<double> share;  // of the particles, in clusters of 1, 2 to 3, 4 to 7 ... particles
+  double mean = 0;            // size of the cluster that a particle is in, over all particles
+};
+
+// Of particles at positions in [0, L). `contact` is the distance at which i and j touch; 1 for all if
+// there is none. sizes depend on N alone. Throws std::invalid_argument for no particles, or a box
+// narrower than two bonds.
+ClusterSizes cluster_sizes(std::span<const Vector> position, double box, int d = 3,
+                           const std::function<double(std::size_t, std::size_t)>& contact = {});
+
+}  // namespace haff::analysis

@@ -1,0 +1,104 @@
+#include "analysis/observables/pair_distribution.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "analysis/observables/pairs.hpp"
+#include "analysis/theory/gas.hpp"
+
+namespace haff::analysis {
+namespace {
+
+constexpr double smallest_box = 4;  // [sigma]
+
+// (4 - 1) / 0.05 is 60 bins, however it is rounded.
+constexpr double rounding = 1e-9;
+
+// Particles in touch overlap by rounding, of less than this; what overlaps by more is no pair of hard
+// particles. [sigma]
+constexpr double overlap = 1e-6;
+
+double reach_in(double box) {
+  return std::min(pair_reach, box / 2);
+}
+
+// W of the header, of x in 0 ... 1.
+double contact_weight(double x) {
+  const double t = 2 * x - 1;
+  const double square = t * t;
+  return (1 - 3 * t + 5 * (1.5 * square - 0.5) - 7 * (2.5 * square - 1.5) * t) / contact_range;
+}
+
+// Pairs in bins and at contact, each in units of what particles anywhere would have.
+class Counts {
+ public:
+  Counts(double box, int d, double contact, double pairs)
+      : d_(d),
+        contact_(contact),
+        density_(pairs * unit_sphere_surface(d) / std::pow(box, d)),
+        bins_(static_cast<std::size_t>((reach_in(box) - contact) / pair_bin + rounding)) {}
+
+  void add(double distance2) {
+    const double r = std::sqrt(distance2);
+    const double beyond = r - contact_;
+    if (beyond < -overlap) return;
+    if (beyond < contact_range)
+      at_contact_ += contact_weight(std::max(beyond, 0.0) / contact_range) / (d_ == 3 ? r * r : r);
+    const auto bin = static_cast<std::size_t>(std::max(beyond, 0.0) / pair_bin);
+    if (bin < bins_.size()) ++bins_[bin];
+  }
+
+  PairDistribution result() const {
+    PairDistribution all{.r = {contact_}, .g = {at_contact_ / density_}};
+    for (std::size_t b = 0; b < bins_.size(); ++b) {
+      const double low = contact_ + static_cast<double>(b) * pair_bin, high = low + pair_bin;
+      const double shell = (d_ == 3 ? high * high * high - low * low * low : high * high - low * low) /
+                           d_ * density_;
+      all.r.push_back(contact_ + (static_cast<double>(b) + 0.5) * pair_bin);
+      all.g.push_back(bins_[b] / shell);
+    }
+    return all;
+  }
+
+ private:
+  int d_;
+  double contact_;
+  double density_;  // of pairs, over r^(d-1) dr
+  std::vector<double> bins_;
+  double at_contact_ = 0;
+};
+
+void must_fit(double box) {
+  if (!(box >= smallest_box))
+    throw std::invalid_argument("a pair distribution needs a box of 4 sigma");
+}
+
+}  // namespace
+
+PairDistribution pair_distribution(std::span<const Vector> position, double box, int d,
+                                   double contact) {
+  must_fit(box);
+  if (position.size() < 2) throw std::invalid_argument("a pair distribution needs two particles");
+  const auto particles = static_cast<double>(position.size());
+  Counts counts(box, d, contact, particles * (particles - 1) / 2);
+  Pairs(position, box, d, reach_in(box))
+      .for_each([&](std::size_t, std::size_t, double distance2) { counts.add(distance2); });
+  return counts.result();
+}
+
+PairDistribution pair_distribution(std::span<const Vector> one, std::span<const Vector> other,
+                                   double box, double contact, int d) {
+  must_fit(box);
+  if (one.empty() || other.empty())
+    throw std::invalid_argument("a pair distribution of two species needs both");
+  std::vector<Vector> all(one.begin(), one.end());
+  all.insert(all.end(), other.begin(), other.end());
+  Counts counts(box, d, contact,
+                static_cast<double>(one.size()) * static_cast<double>(other.size()));
+  Pairs(all, box, d, reach_in(box)).for_each([&](std::size_t i, std::size_t j, double distance2) {
+    if ((i < one.size()) != (j < one.size())) counts.add(distance2);
+  });
+  return counts.result();
+}
+
+}  // namespace haff::analysis

@@ -1,0 +1,28 @@
+#include "analysis/theory/self_diffusion.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "analysis/theory/enskog.hpp"
+
+using namespace haff::analysis;
+using doctest::Approx;
+
+TEST_CASE("self_diffusion: Chapman and Enskog's coefficient of spheres and disks") {
+  const double n = 0.05, T = 0.7;
+  const double spheres = 1.019 * 3 / (8 * n * contact_value(n)) * std::sqrt(T / std::numbers::pi);
+  CHECK(self_diffusion_per_collision(n) * transport(n, T).collision_rate ==
+        Approx(spheres).epsilon(1e-12));
+  const double disks = 1 / (2 * n * contact_value(n, 2)) * std::sqrt(T / std::numbers::pi);
+  CHECK(self_diffusion_per_collision(n, 2) * transport(n, T, 2).collision_rate ==
+        Approx(disks).epsilon(1e-12));
+}
+
+TEST_CASE("self_diffusion: the velocity is forgotten as D says") {
+  // D/omega = T/omega^2 times the integral of the autocorrelation, in the first approximation.
+  const double n = 0.05, rate = transport(n, 1).collision_rate;
+  CHECK(self_diffusion_per_collision(n) / 1.019 == Approx(1.5 / (rate * rate)).epsilon(1e-12));
+  CHECK(enskog_autocorrelation(3, 2) == Approx(std::exp(-3)));
+}
