@@ -1,5 +1,7 @@
 #include "schema/store/reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -144,8 +146,8 @@ std::vector<RunningJob> Reader::running() const {
 bool Reader::has_claimable(const std::optional<Fit>& fit) const {
   return database_->guarded([&] {
     SQLite::Statement statement(database_->sqlite(),
-                                std::string("SELECT 1 ") + from_claimable_jobs + "AND " +
-                                    seconds_to_next_tau + " <= :seconds LIMIT 1");
+                                fmt::format("SELECT 1 {}AND {} <= :seconds LIMIT 1",
+                                            from_claimable_jobs, seconds_to_next_tau));
     statement.bind(":seconds", fit ? fit->seconds : std::numeric_limits<double>::max());
     statement.bind(":tau", fit ? fit->tau : 0);
     return statement.executeStep();
@@ -156,7 +158,7 @@ std::optional<double> Reader::least_seconds_to(double tau) const {
   return database_->guarded([&]() -> std::optional<double> {
     SQLite::Statement statement(
         database_->sqlite(),
-        std::string("SELECT min(") + seconds_to_next_tau + ") AS seconds " + from_claimable_jobs);
+        fmt::format("SELECT min({}) AS seconds {}", seconds_to_next_tau, from_claimable_jobs));
     statement.bind(":tau", tau);
     if (!statement.executeStep()) return std::nullopt;
     return optional_real(statement, "seconds");

@@ -68,7 +68,7 @@ Panel ratios(const Curve& paper, const Curve& measured, double low, double high)
   inset.y.low = 1 - reach;
   inset.y.high = 1 + reach;
   inset.y.tics = fmt::format("{:g}", round_step(reach / 2));
-  inset.commands.push_back(
+  inset.commands.emplace_back(
       "set arrow from graph 0, first 1 to graph 1, first 1 nohead back lw 1 lc rgb '#888888'");
   return inset;
 }

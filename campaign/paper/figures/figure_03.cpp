@@ -90,7 +90,7 @@ Panel ratios(const std::vector<Curve>& curves) {
   inset.y.low = 1 - reach;
   inset.y.high = 1 + reach;
   inset.y.tics = fmt::format("{:g}", round_step(reach / 3));
-  inset.commands.push_back(
+  inset.commands.emplace_back(
       "set arrow from graph 0, first 1 to graph 1, first 1 nohead back lw 1 lc rgb '#000000'");
   return inset;
 }

@@ -69,7 +69,7 @@ std::optional<Plot> figure_09(const Averages& averages) {
   panel.curves.back().name = "G_perpendicular, incompressible";
   for (std::size_t i = 0; i < panel.curves.size(); ++i) panel.curves[i].colour = colour(i % 2, 2);
   panel.curves.push_back({.legend = "incompressible theory"});
-  panel.commands.push_back(
+  panel.commands.emplace_back(
       "set arrow from graph 0, first 0 to graph 1, first 0 nohead back lw 0.7 lc rgb '#888888'");
   panel.y.low = range.low - 0.1 * range.width();
   panel.y.high = range.high + 0.1 * range.width();
