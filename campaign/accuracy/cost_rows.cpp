@@ -8,8 +8,35 @@ namespace haff::campaign {
 
 namespace {
 
+// The columns of cost.csv, in their order, with the row's values.
+template <class Visit>
+void visit_columns(const CostRow& row, Visit&& visit) {
+  visit("row", row.row);
+  visit("quantity", name(row.quantity.measure));
+  visit("tau_from", row.quantity.from);
+  visit("tau_to", row.quantity.to);
+  visit("r", row.quantity.r);
+  visit("e", row.job.e);
+  visit("n", row.job.n);
+  visit("particles", row.job.particles);
+  visit("equilibrate", row.job.equilibrate);
+  visit("cause", row.cause);
+  visit("realizations", row.realizations);
+  visit("cpu_seconds", row.cpu_seconds);
+  visit("value", row.value);
+  visit("error", row.error);
+  visit("interval", row.interval);
+  visit("slope", row.slope);
+  visit("slope_error", row.slope_error);
+  visit("correlation_time", row.correlation_time);
+  visit("memory_bytes", row.memory_bytes);
+}
+
+nlohmann::ordered_json json_value(const auto& value) {
+  return value;
+}
 template <class T>
-nlohmann::ordered_json or_null(const std::optional<T>& value) {
+nlohmann::ordered_json json_value(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
 
@@ -68,43 +95,25 @@ std::vector<CostRow> rows_of(const Assessment& assessment, const std::vector<Adv
 }
 
 std::string csv_of(const std::vector<CostRow>& rows) {
-  std::string text =
-      csv_row("row", "quantity", "tau_from", "tau_to", "r", "e", "n", "particles", "equilibrate",
-              "cause", "realizations", "cpu_seconds", "value", "error", "interval", "slope",
-              "slope_error", "correlation_time", "memory_bytes");
+  std::vector<std::string> names;
+  visit_columns(CostRow{}, [&](const char* name, const auto&) { names.emplace_back(name); });
+  std::string text = csv_line(names);
   for (const CostRow& row : rows) {
-    const Quantity& q = row.quantity;
-    const schema::Job& job = row.job;
-    text +=
-        csv_row(row.row, name(q.measure), q.from, q.to, q.r, job.e, job.n, job.particles,
-                job.equilibrate, row.cause, row.realizations, row.cpu_seconds, row.value, row.error,
-                row.interval, row.slope, row.slope_error, row.correlation_time, row.memory_bytes);
+    std::vector<std::string> fields;
+    visit_columns(row, [&](const char*, const auto& value) { fields.push_back(csv_field(value)); });
+    text += csv_line(fields);
   }
   return text;
 }
 
 nlohmann::ordered_json json_of(const std::vector<CostRow>& rows) {
   auto list = nlohmann::ordered_json::array();
-  for (const CostRow& row : rows)
-    list.push_back({{"row", row.row},
-                    {"quantity", name(row.quantity.measure)},
-                    {"tau_from", row.quantity.from},
-                    {"tau_to", row.quantity.to},
-                    {"r", row.quantity.r},
-                    {"e", or_null(row.job.e)},
-                    {"n", row.job.n},
-                    {"particles", row.job.particles},
-                    {"equilibrate", row.job.equilibrate},
-                    {"cause", row.cause},
-                    {"realizations", or_null(row.realizations)},
-                    {"cpu_seconds", or_null(row.cpu_seconds)},
-                    {"value", or_null(row.value)},
-                    {"error", or_null(row.error)},
-                    {"interval", or_null(row.interval)},
-                    {"slope", or_null(row.slope)},
-                    {"slope_error", or_null(row.slope_error)},
-                    {"correlation_time", or_null(row.correlation_time)},
-                    {"memory_bytes", or_null(row.memory_bytes)}});
+  for (const CostRow& row : rows) {
+    auto object = nlohmann::ordered_json::object();
+    visit_columns(row,
+                  [&](const char* name, const auto& value) { object[name] = json_value(value); });
+    list.push_back(std::move(object));
+  }
   return list;
 }
 

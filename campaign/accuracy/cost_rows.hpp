@@ -14,7 +14,7 @@ namespace haff::campaign {
 // A row of cost.csv: of which quantity and gas, then what the row has. The rows are also printed as
 // JSON.
 struct CostRow {
-  const char* row;
+  const char* row = "";
   Quantity quantity;
   schema::Job job;
   std::string cause;
