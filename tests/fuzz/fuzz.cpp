@@ -11,6 +11,7 @@
 #include <exception>
 #include <string>
 
+#include "campaign/planning/expansion.hpp"
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/restore.hpp"
 #include "engine/initial.hpp"
@@ -68,9 +69,62 @@ std::string grid(Random& random) {
   return text;
 }
 
-void try_grid(Random& random) {
+// A grid that is right, but for a few of its words and characters.
+std::string mutated_grid(Random& random) {
+  static const char* const grids[] = {
+      R"({"e": [0.8, 0.9], "n": 0.4, "N": 32000, "seeds": 2, "tau_max": {"0.8": 90, "0.9": 180},
+          "observables": ["temperature", "laguerre"], "checkpoint_every": 10})",
+      R"({"n": 0.05, "N": [500, 1000], "seeds": [3, 4], "tau_max": 40, "equilibrate": 20, "grids": [
+          {"e": 0.8, "profiles_every": 10, "fields_at": [20], "observables": ["temperature",
+           "distribution", "correlations", "structure", "clusters", "fields"]},
+          {"e": 0.9, "d": 2}]})",
+      R"({"e": 0.9, "n": 0.4, "N": 4000, "seeds": 5, "tau_max": 60,
+          "target": {"a2": {"tau": [5, 15], "se": 5e-4}, "tau_c": {"se": 0.5}}})",
+      R"({"e": 0.7, "n": 0.2, "N": 500, "seeds": 1, "tau_max": 20, "sample_every": 0.5, "effects": [
+          {}, {"restitution": {"law": ["threshold"], "speed": [0.1, 0.2]}},
+          {"shuffle": {"every": [1, 5]}}, {"thermostat": {"rate": 0.05}},
+          {"roughness": {"beta": 0.5, "q": 0.4}},
+          {"mixture": {"fraction": 0.5, "diameter_ratio": 0.8, "mass_ratio": 0.1}}]})"};
+  std::string text = grids[below(random, std::size(grids))];
+  for (std::uint64_t k = 1 + below(random, 4); k-- > 0;) {
+    const std::size_t at = below(random, text.size());
+    const std::size_t begin = text.find_first_of("0123456789\"{[", at);
+    if (begin == std::string::npos) continue;
+    const std::size_t end = text.find_first_of(",:]} ", begin + 1);
+    const std::size_t length = (end == std::string::npos ? text.size() : end) - begin;
+    switch (below(random, 5)) {
+      case 0:  // a word, most often a number, is another
+      case 1:
+        text.replace(begin, length, value(random, 1));
+        break;
+      case 2:
+        text.erase(begin, length);
+        break;
+      case 3:
+        text.insert(begin, text.substr(below(random, text.size()), length));
+        break;
+      default:
+        text[at] = static_cast<char>(below(random, 256));
+    }
+  }
+  return text;
+}
+
+struct Grids {
+  unsigned long tried = 0, accepted = 0;
+};
+Grids grids_seen;
+
+// A grid that is accepted is expanded: it must not take for ever.
+void try_grid(const std::string& text) {
+  constexpr std::size_t many = 2'000'000;  // schema/grid.schema.json allows a million jobs
+  ++grids_seen.tried;
   try {
-    schema::parse_grid(grid(random), "fuzz.json", {.bytes = 1e9, .bytes_per_particle = 200});
+    const auto read =
+        schema::parse_grid(text, "fuzz.json", {.bytes = 1e9, .bytes_per_particle = 200});
+    if (campaign::expand(read).size() > many) throw std::logic_error("too many jobs: " + text);
+    campaign::targets_of(read);
+    ++grids_seen.accepted;
   } catch (const schema::GridError&) {
   }
 }
@@ -167,6 +221,7 @@ void try_checkpoint(Random& random) {
     engine::Simulation gas({.restitution = 0.8, .law = {"tc", {{"t_c", 1e-3}}}}, read);
     gas.run_to(engine::collisions_at(1, gas.particles()));
   } catch (const campaign::DamagedCheckpoint&) {
+  } catch (const campaign::NewerCheckpoint&) {
   } catch (const engine::PhysicsError&) {
   } catch (const engine::Collapse&) {
   } catch (const std::invalid_argument&) {  // a memory of other particles
@@ -180,6 +235,8 @@ int main(int argc, char** argv) {
   std::uint64_t rounds = 100;
   CLI::App app("Random grids, states and checkpoints through the real code");
   app.add_option("--seed", seed, "of the first round")->capture_default_str();
+  bool grids_only = false;
+  app.add_flag("--grids", grids_only, "Grids alone, 40 a round");
   app.add_option("--rounds", rounds, "rounds, each with a seed of its own")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
@@ -187,7 +244,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "\rround %llu", static_cast<unsigned long long>(round));
     Random random(round, engine::Stream::velocities);
     try {
-      for (int k = 0; k < 20; ++k) try_grid(random);
+      for (int k = 0; k < 20; ++k) try_grid(grid(random));
+      for (int k = 0; k < 20; ++k) try_grid(mutated_grid(random));
+      if (grids_only) continue;
       try_state(random);
       for (int k = 0; k < 20; ++k) try_checkpoint(random);
     } catch (const std::exception& error) {
@@ -196,6 +255,6 @@ int main(int argc, char** argv) {
       return 1;
     }
   }
-  std::fprintf(stderr, "\n");
+  std::fprintf(stderr, "\n%lu of %lu grids accepted\n", grids_seen.accepted, grids_seen.tried);
   return 0;
 }

@@ -537,6 +537,18 @@ TEST_CASE("a number too small for a double is named so") {
 
 // ---- bounds -----------------------------------------------------------------------------------
 
+TEST_CASE("what fuzzing found: an observable wider than the box, a target without its error") {
+  check_complaint(with("N", R"(4, "observables": ["structure"], "profiles_every": 5)"),
+                  "g.json: /observables/0: \"structure\" needs a box wider than 8 sigma, which 4 "
+                  "particles at n = 0.4 do not fill; expected N above 205");
+  CHECK(complaint(with("N", R"(4, "observables": ["correlations"], "profiles_every": 5)"))
+            .starts_with("g.json: /observables/0: \"correlations\" needs a box wider than"));
+  check_complaint(
+      with_target(R"({"a2": {"tau": [5, 15]}})"),
+      "g.json: /target/a2: has no \"se\"; expected a standard error, a number from 1e-8 "
+      "to 1e6");
+}
+
 TEST_CASE("no number of a grid is beyond what a run can do with it") {
   for (const auto& each : std::vector<std::pair<std::string, std::string>>{
            {"tau_max", "1e12"},
