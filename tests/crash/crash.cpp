@@ -64,7 +64,7 @@ class PowerLoss {
                          operations_.size(), planned_, static_cast<int>(fate), what);
     };
     const Result verified = shell(folder, "verify");
-    const bool is_unfinished = contains(verified.said, "is empty; make it with") ||
+    const bool is_unfinished = contains(verified.said, "is empty (a plan that was cut off") ||
                                contains(verified.said, "there is no such store");
     if (verified.exit_code != 0 && !(while_planning && is_unfinished))
       return named("verify says: " + verified.said);
