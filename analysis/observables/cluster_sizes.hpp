@@ -1,10 +1,10 @@
-// Clusters of particles, by their distances alone: two belong to one cluster if they are closer than
-// a bond, or both belong to a cluster with a third one.
+// Clusters of particles, by their distances alone: two belong to one cluster if they are closer
+// than a bond, or both belong to a cluster with a third one.
 //
 // F. H. Stillinger, J. Chem. Phys. 38, 1486 (1963); of cooling granular gases S. Luding and H. J.
-// Herrmann, Chaos 9, 673 (1999), cond-mat/9910089. What comes out depends on the length of the bond:
-// in a homogeneous fluid of n = 0.4 most particles are one cluster already, at n = 0.05 two in
-// three are alone. largest_cluster (structure.hpp) asks for density instead.
+// Herrmann, Chaos 9, 673 (1999), cond-mat/9910089. What comes out depends on the length of the
+// bond: with 1.1 a particle of an elastic gas is in a cluster of 1.09 on average at n = 0.05, and
+// of 3.7 at n = 0.4 (N = 4000). largest_cluster (structure.hpp) asks for density instead.
 #pragma once
 
 #include <functional>
@@ -24,9 +24,9 @@ struct ClusterSizes {
   double mean = 0;            // size of the cluster that a particle is in, over all particles
 };
 
-// Of particles at positions in [0, L). `contact` is the distance at which i and j touch; 1 for all if
-// there is none. sizes depend on N alone. Throws std::invalid_argument for no particles, or a box
-// narrower than two bonds.
+// Of particles at positions in [0, L). `contact` is the distance at which i and j touch; 1 for all
+// if there is none. sizes depend on N alone. Throws std::invalid_argument for no particles, or a
+// box narrower than two bonds.
 ClusterSizes cluster_sizes(std::span<const Vector> position, double box, int d = 3,
                            const std::function<double(std::size_t, std::size_t)>& contact = {});
 

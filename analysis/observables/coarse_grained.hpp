@@ -3,9 +3,9 @@
 //   n(r) = N_r / cell volume,   u(r) = < v >,   T_L(r) = (m/d) < (v - u)^2 > N_r / (N_r - 1)
 //
 // over the N_r particles of a cell; the last factor makes up for u being their own mean. <u^2>
-// still holds a self part of about d T / (m N_r). Of particles of several masses u is the velocity of
-// their center of mass, and T_L = < m (v - u)^2 > / d, with the same factor.
-// R. Kawahara and H. Nakanishi, cond-mat/0309130 (who take 32^3 cells at N = 10^6).
+// still holds a self part of about d T / (m N_r). Of particles of several masses u is the velocity
+// of their center of mass, and T_L = < m (v - u)^2 > / d, with the same factor. R. Kawahara and H.
+// Nakanishi, cond-mat/0309130 (who take 32^3 cells at N = 10^6).
 #pragma once
 
 #include <span>

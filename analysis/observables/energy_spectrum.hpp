@@ -7,10 +7,10 @@
 //             unit of wave number, the thermal motion of the particles included
 //   Z(k)      k^2 E_perp(k): the same of the vorticity k x u, the spectrum of enstrophy
 //
-// In an elastic gas all modes are alike (equipartition): E_par = rho T / (2N), E_perp = (d-1) E_par,
-// with rho/N = Omega_d k^(d-1) / (n (2 pi)^d). In a cooling gas the noise of collisions feeds the
-// modes, and those of long waves decay more slowly than the gas cools: with s = 2 gamma_0 tau and
-// T_Haff,
+// In an elastic gas all modes are alike (equipartition): E_par = rho T / (2N), E_perp = (d-1)
+// E_par, with rho/N = Omega_d k^(d-1) / (n (2 pi)^d). In a cooling gas the noise of collisions
+// feeds the modes, and those of long waves decay more slowly than the gas cools: with s = 2 gamma_0
+// tau and T_Haff,
 //   E / E_equilibrium = 1 + (e^(s (1 - xi^2 k^2)) - 1) / (1 - xi^2 k^2),   xi = xi_perp, xi_par:
 // T. P. C. van Noije, M. H. Ernst, R. Brito and J. A. G. Orza, Phys. Rev. Lett. 79, 411 (1997).
 //
@@ -26,8 +26,8 @@
 namespace haff::analysis {
 
 struct EnergySpectrum {
-  std::vector<double> k;           // mean of a shell of modes, one shell every 2 pi / L [1/sigma]
-  std::vector<double> transverse;  // E_perp, in the unit of m v^2 sigma
+  std::vector<double> k;             // mean of a shell of modes, one shell every 2 pi / L [1/sigma]
+  std::vector<double> transverse;    // E_perp, in the unit of m v^2 sigma
   std::vector<double> longitudinal;  // E_par
   std::vector<double> enstrophy;     // Z
 };

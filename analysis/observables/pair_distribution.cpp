@@ -14,8 +14,8 @@ constexpr double smallest_box = 4;  // [sigma]
 // (4 - 1) / 0.05 is 60 bins, however it is rounded.
 constexpr double rounding = 1e-9;
 
-// Particles in touch overlap by rounding, of less than this; what overlaps by more is no pair of hard
-// particles. [sigma]
+// Particles in touch overlap by rounding, of less than this; what overlaps by more is no pair of
+// hard particles. [sigma]
 constexpr double overlap = 1e-6;
 
 double reach_in(double box) {
@@ -52,8 +52,9 @@ class Counts {
     PairDistribution all{.r = {contact_}, .g = {at_contact_ / density_}};
     for (std::size_t b = 0; b < bins_.size(); ++b) {
       const double low = contact_ + static_cast<double>(b) * pair_bin, high = low + pair_bin;
-      const double shell = (d_ == 3 ? high * high * high - low * low * low : high * high - low * low) /
-                           d_ * density_;
+      const double shell =
+          (d_ == 3 ? high * high * high - low * low * low : high * high - low * low) / d_ *
+          density_;
       all.r.push_back(contact_ + (static_cast<double>(b) + 0.5) * pair_bin);
       all.g.push_back(bins_[b] / shell);
     }
@@ -81,8 +82,9 @@ PairDistribution pair_distribution(std::span<const Vector> position, double box,
   if (position.size() < 2) throw std::invalid_argument("a pair distribution needs two particles");
   const auto particles = static_cast<double>(position.size());
   Counts counts(box, d, contact, particles * (particles - 1) / 2);
-  Pairs(position, box, d, reach_in(box))
-      .for_each([&](std::size_t, std::size_t, double distance2) { counts.add(distance2); });
+  Pairs(position, box, d, reach_in(box)).for_each([&](std::size_t, std::size_t, double distance2) {
+    counts.add(distance2);
+  });
   return counts.result();
 }
 

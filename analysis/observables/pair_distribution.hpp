@@ -10,7 +10,8 @@
 // int W g dr over one w is g(sigma) for every cubic g: it is what least squares with a cubic give.
 // So chi is a sum of W over pairs, without bias but for what a cubic leaves out, and its mean over
 // realizations is the mean itself. The equation of state knows chi, too: p/(n T) = 1 + 2^(d-1) phi
-// chi (theory/enskog.hpp). J. P. Hansen and I. R. McDonald, Theory of Simple Liquids, secs. 2.5, 2.6.
+// chi (theory/enskog.hpp). J. P. Hansen and I. R. McDonald, Theory of Simple Liquids,
+// secs. 2.5, 2.6.
 #pragma once
 
 #include <span>
@@ -24,9 +25,9 @@ namespace haff::analysis {
 inline constexpr double pair_bin = 0.05;
 inline constexpr double pair_reach = 4;
 
-// The range w that chi is extrapolated from. What a cubic leaves out of the g(r) of Percus and Yevick
-// makes chi too large by 2e-5 at n = 0.2, 1.2e-4 at 0.4, 4e-4 at 0.6 and 9.5e-4 at 0.8 (relative);
-// narrower ranges hold fewer pairs, and the variance goes with 16/w. [sigma]
+// The range w that chi is extrapolated from. What a cubic leaves out of the g(r) of Percus and
+// Yevick makes chi too large by 2e-5 at n = 0.2, 1.2e-4 at 0.4, 4e-4 at 0.6 and 9.5e-4 at 0.8
+// (relative); narrower ranges hold fewer pairs, and the variance goes with 16/w. [sigma]
 inline constexpr double contact_range = 0.4;
 
 struct PairDistribution {

@@ -81,7 +81,7 @@ class Pairs {
   bool has_cells_ = false;
   std::vector<Vector> position_;  // cell by cell; of a planar gas with z = 0
   std::vector<std::uint32_t> number_;
-  std::vector<std::size_t> first_;            // of each cell, and one beyond the last
+  std::vector<std::size_t> first_;           // of each cell, and one beyond the last
   std::vector<std::array<int, 3>> offsets_;  // half of the cells around, each pair of cells once
 };
 

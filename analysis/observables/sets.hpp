@@ -1,4 +1,5 @@
-// Sets that grow together: cells, or particles, of one cluster. For the .cpp files of this room only.
+// Sets that grow together: cells, or particles, of one cluster. For the .cpp files of this room
+// only.
 #pragma once
 
 #include <algorithm>

@@ -48,8 +48,8 @@ double where_greatest(double low, double high, Function&& f) {
   return 0.5 * (low + high);
 }
 
-// ln of int_3^inf c^(d-1) exp(-A c^alpha) dc, with t = A 3^alpha and c = 3 (1 + x): exp(-t) is taken
-// out, and the rest is a sum over steps of Simpson's rule.
+// ln of int_3^inf c^(d-1) exp(-A c^alpha) dc, with t = A 3^alpha and c = 3 (1 + x): exp(-t) is
+// taken out, and the rest is a sum over steps of Simpson's rule.
 double log_norm(double t, double alpha, int d) {
   // The integrand falls by e over about 1/(t alpha): forty of these are all of it. [relative]
   const double far = std::min(40 / (t * alpha), 1e3);

@@ -3,8 +3,8 @@
 //
 // A cooling gas is expected to have rho ~ exp(-A c), a gas heated by white noise exp(-A c^(3/2)):
 // T. P. C. van Noije and M. H. Ernst, Gran. Matter 1, 57 (1998); a Gaussian one has exp(-c^2). The
-// exponent alpha of exp(-A c^alpha) is that of the greatest likelihood, given the speeds beyond c = 3
-// and no others: of a density proportional to c^(d-1) exp(-A c^alpha) there.
+// exponent alpha of exp(-A c^alpha) is that of the greatest likelihood, given the speeds beyond c =
+// 3 and no others: of a density proportional to c^(d-1) exp(-A c^alpha) there.
 #pragma once
 
 #include <optional>
@@ -25,14 +25,14 @@ inline constexpr int tail_bins = 40;  // up to c = 21
 inline constexpr std::size_t fewest_in_tail = 30;
 
 struct Tail {
-  std::vector<double> c;    // geometric middle of each bin
-  std::vector<double> rho;  // as in distribution.hpp; 0 where no particle is
+  std::vector<double> c;                // geometric middle of each bin
+  std::vector<double> rho;              // as in distribution.hpp; 0 where no particle is
   std::optional<double> exponent = {};  // alpha, between 0.05 and 8; none of too few speeds
   std::size_t particles = 0;            // in the tail
 };
 
-// Of the first d components of all velocities. Throws std::invalid_argument without velocities, or if
-// all are zero.
+// Of the first d components of all velocities. Throws std::invalid_argument without velocities, or
+// if all are zero.
 Tail tail(std::span<const Vector> velocity, int d = 3);
 
 }  // namespace haff::analysis

@@ -9,8 +9,8 @@
 namespace haff::analysis {
 
 double equilibrium_spectrum(double k, double n, double temperature, bool is_parallel, int d) {
-  const double modes = unit_sphere_surface(d) * std::pow(k, d - 1) /
-                       (n * std::pow(2 * std::numbers::pi, d));
+  const double modes =
+      unit_sphere_surface(d) * std::pow(k, d - 1) / (n * std::pow(2 * std::numbers::pi, d));
   return 0.5 * modes * temperature * (is_parallel ? 1 : d - 1);
 }
 

@@ -1,15 +1,15 @@
-// The energy spectrum of the flow, E(k) of observables/energy_spectrum.hpp: in equilibrium, and in the
-// cooling gas by fluctuating hydrodynamics.
+// The energy spectrum of the flow, E(k) of observables/energy_spectrum.hpp: in equilibrium, and in
+// the cooling gas by fluctuating hydrodynamics.
 //
 //   E_par     Omega_d k^(d-1) T / (2 n (2 pi)^d) in equilibrium,   E_perp = (d-1) E_par
 //   s         2 gamma_0 tau
 //   ratio     1 + (e^(s (1 - xi^2 k^2)) - 1) / (1 - xi^2 k^2), with xi_perp or xi_par (enskog.hpp),
-//             times equilibrium at Haff's temperature: 1 for k >> 1/xi, e^s for k -> 0, where the flow
-//             keeps its energy
+//             times equilibrium at Haff's temperature: 1 for k >> 1/xi, e^s for k -> 0, where the
+//             flow keeps its energy
 //
-// It is the transform of G_perp and G_par of correlations.hpp, with the self part: T. P. C. van Noije,
-// M. H. Ernst, R. Brito and J. A. G. Orza, Phys. Rev. Lett. 79, 411 (1997). For longitudinal modes it
-// holds where k l_0 is well below gamma_0 alone (modes.hpp).
+// It is the transform of G_perp and G_par of correlations.hpp, with the self part: T. P. C. van
+// Noije, M. H. Ernst, R. Brito and J. A. G. Orza, Phys. Rev. Lett. 79, 411 (1997). For longitudinal
+// modes it holds where k l_0 is well below gamma_0 alone (modes.hpp).
 #pragma once
 
 #include "analysis/theory/gas.hpp"

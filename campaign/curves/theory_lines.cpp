@@ -125,8 +125,8 @@ bool is_heated(const TheoryPoint& at) {
   return at.gas.heating > 0;
 }
 
-// What Enskog's theory knows of an elastic gas: the contact value, where g begins, self-diffusion, and
-// how velocities are forgotten. Of gases that cool slowly it is the first guess.
+// What Enskog's theory knows of an elastic gas: the contact value, where g begins, self-diffusion,
+// and how velocities are forgotten. Of gases that cool slowly it is the first guess.
 std::vector<TheoryLine> lines_of_elastic_gas(const std::string& profile, const TheoryPoint& at,
                                              std::span<const double> x) {
   if (at.roughness || at.mixture) return {};
@@ -137,9 +137,10 @@ std::vector<TheoryLine> lines_of_elastic_gas(const std::string& profile, const T
     line.look = Look::dashed;
   }
   for (const double each : x)
-    line.values.push_back(profile == "g"           ? analysis::contact_value(at.n, at.d)
-                          : profile == "diffusion" ? analysis::self_diffusion_per_collision(at.n, at.d)
-                                                   : analysis::enskog_autocorrelation(each, at.d));
+    line.values.push_back(profile == "g" ? analysis::contact_value(at.n, at.d)
+                          : profile == "diffusion"
+                              ? analysis::self_diffusion_per_collision(at.n, at.d)
+                              : analysis::enskog_autocorrelation(each, at.d));
   return {line};
 }
 
@@ -157,8 +158,9 @@ std::vector<TheoryLine> spectrum(const std::string& profile, const TheoryPoint& 
     equal.values.push_back(
         analysis::equilibrium_spectrum(each, at.n, temperature, is_parallel, at.d));
     if (at.e < 1)
-      hydrodynamic.values.push_back(equal.values.back() *
-                                    analysis::spectrum_ratio({.e = at.e, .n = at.n, .d = at.d}, each, at.tau, is_parallel));
+      hydrodynamic.values.push_back(
+          equal.values.back() *
+          analysis::spectrum_ratio({.e = at.e, .n = at.n, .d = at.d}, each, at.tau, is_parallel));
   }
   if (at.mixture || !(at.e < 1)) return {equal};
   return {equal, hydrodynamic};

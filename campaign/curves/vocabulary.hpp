@@ -31,8 +31,8 @@ struct DerivedColumn {
 };
 extern const std::vector<DerivedColumn> derived_columns;
 
-// The variable of a profile as the axis calls it (schema/grid/observables.hpp): c, r, k ...; x of one that
-// this program does not know.
+// The variable of a profile as the axis calls it (schema/grid/observables.hpp): c, r, k ...; x of
+// one that this program does not know.
 std::string profile_variable(std::string_view profile);
 
 // Names in an SQL expression: words, with dots, that are no functions, outside of quotes.

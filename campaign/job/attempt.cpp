@@ -80,8 +80,7 @@ void Attempt::begin(const engine::State& state) {
 
 bool Attempt::advance_to(std::int64_t collisions) {
   while (gas_->collisions() < collisions) {
-    gas_->run_to(
-        std::min({collisions, gas_->collisions() + stretch, diffusion_.next_look()}));
+    gas_->run_to(std::min({collisions, gas_->collisions() + stretch, diffusion_.next_look()}));
     if (gas_->collisions() == diffusion_.next_look()) diffusion_.look(*gas_);
     report_progress();
     if (is_asked_to_leave() && !may_go_on_to_synchronization()) return false;

@@ -17,7 +17,8 @@
 namespace haff::campaign {
 namespace {
 
-// The fastest particle is to come this part of the box between two looks, and may come twice as far.
+// The fastest particle is to come this part of the box between two looks, and may come twice as
+// far.
 constexpr double part_of_box = 0.125;
 
 // Fewer collisions than this are too irregular in time to be planned: one is taken at a time.
@@ -117,14 +118,14 @@ void Diffusion::look(const engine::Simulation& gas) {
   // say, by half of elapsed times the change of velocity: half a box tells images apart.
   const double allowed = gas.collisions() == collisions_ + 1 ? 0.5 : 2 * part_of_box;
   if (!(fastest * elapsed < allowed * box_))
-    throw engine::PhysicsError(fmt::format(
-        "msd and vacf: after {} collisions the fastest particle came {:.3g} of the box within {} of "
-        "them, too far to follow it through the faces of the box; expected a larger N",
-        gas.collisions(), fastest * elapsed / box_, gas.collisions() - collisions_));
+    throw engine::PhysicsError(
+        fmt::format("msd and vacf: after {} collisions the fastest particle came {:.3g} of the box "
+                    "within {} of "
+                    "them, too far to follow it through the faces of the box; expected a larger N",
+                    gas.collisions(), fastest * elapsed / box_, gas.collisions() - collisions_));
   for (std::size_t i = 0; i < position.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      const double expected =
-          position_[i][k] + 0.5 * elapsed * (velocity_[i][k] + velocity[i][k]);
+      const double expected = position_[i][k] + 0.5 * elapsed * (velocity_[i][k] + velocity[i][k]);
       images_[i][k] += std::nearbyint((expected - position[i][k]) / box_);
     }
   const auto between = static_cast<double>(gas.collisions() - collisions_);
@@ -141,8 +142,8 @@ std::int64_t Diffusion::collisions_ahead(double fastest) const {
   return planned >= plannable ? static_cast<std::int64_t>(std::min(planned, most_ahead)) : 1;
 }
 
-// Of a homogeneous gas: what a gas that has not been watched yet is taken for. One that has clustered
-// collides more often, and is only looked at more often than it needs.
+// Of a homogeneous gas: what a gas that has not been watched yet is taken for. One that has
+// clustered collides more often, and is only looked at more often than it needs.
 double Diffusion::expected_rate() const {
   const auto mixture = mixture_of(job_);
   double energy = 0;

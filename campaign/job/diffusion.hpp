@@ -4,8 +4,9 @@
 // often that a particle comes a quarter of the box at most between two looks, and the image that it
 // has reached is the one nearest to where its velocities before and after would have taken it. How
 // often that is decides nothing: what is kept are positions, and whole numbers of boxes. Where
-// collisions are so rare that the gas moves further from one to the next, it is looked at after each;
-// the two particles that collided are then known to within what their change of velocity does.
+// collisions are so rare that the gas moves further from one to the next, it is looked at after
+// each; the two particles that collided are then known to within what their change of velocity
+// does.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,8 @@ class Diffusion {
  public:
   explicit Diffusion(const schema::Job& job);
 
-  // From this state on, with what it holds of earlier looks and waiting times. `gas` starts from it.
+  // From this state on, with what it holds of earlier looks and waiting times. `gas` starts from
+  // it.
   void begin(const engine::Simulation& gas, const engine::State& state);
 
   // The number of collisions at which the gas must be looked at. Without msd and vacf never.
@@ -30,9 +32,9 @@ class Diffusion {
   // Throws engine::PhysicsError if a particle came further than the gas was expected to move.
   void look(const engine::Simulation& gas);
 
-  // A point of each curve whose waiting time has come: of the profiles msd, diffusion and vacf, whose
-  // tau is the waiting time, and x the collisions per particle since. Begins those whose waiting time
-  // is now.
+  // A point of each curve whose waiting time has come: of the profiles msd, diffusion and vacf,
+  // whose tau is the waiting time, and x the collisions per particle since. Begins those whose
+  // waiting time is now.
   std::vector<schema::Profile> sample(const engine::Simulation& gas, double tau);
 
   // Into the memory of a state that is stored, at a synchronization; the engine passes it by.
@@ -45,7 +47,7 @@ class Diffusion {
   struct Waiting {
     double tau = 0;
     bool msd = false, vacf = false;
-    Vectors position, velocity;        // not wrapped; in true units
+    Vectors position, velocity;         // not wrapped; in true units
     double last_lag = 0, last_msd = 0;  // of the sample before
   };
 

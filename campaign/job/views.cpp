@@ -15,8 +15,8 @@
 #include "analysis/observables/tail.hpp"
 #include "analysis/observables/velocity_correlations.hpp"
 #include "analysis/theory/correlations.hpp"
-#include "campaign/job/timetable.hpp"
 #include "campaign/job/asked.hpp"
+#include "campaign/job/timetable.hpp"
 #include "campaign/state/model.hpp"
 #include "engine/initial.hpp"
 
@@ -142,9 +142,8 @@ void view_cluster_sizes(const Snapshot& gas, const Page& page) {
   const auto contact = [&](std::size_t i, std::size_t j) {
     return gas.mixture->contact_distance(gas.id[i], gas.id[j]);
   };
-  auto clusters =
-      gas.mixture ? analysis::cluster_sizes(gas.position, gas.box, gas.job.d, contact)
-                  : analysis::cluster_sizes(gas.position, gas.box, gas.job.d);
+  auto clusters = gas.mixture ? analysis::cluster_sizes(gas.position, gas.box, gas.job.d, contact)
+                              : analysis::cluster_sizes(gas.position, gas.box, gas.job.d);
   page.add("cluster_sizes", std::move(clusters.size), std::move(clusters.share));
   page.add("mean_cluster", {1}, {clusters.mean});
 }

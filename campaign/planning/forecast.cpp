@@ -197,7 +197,8 @@ const Sizes& Forecast::sizes_of(const schema::Job& job) {
 double Forecast::disk_bytes(const schema::Planned& plan) {
   const Counts counts = counts_of(plan);
   const double state = counts.commits > 0 ? sizes_of(plan.job).state : 0;
-  return job_bytes + state * plan.job.particles + (state > 0 ? diffusion_bytes(plan.job) : 0) + sample_bytes * counts.samples +
+  return job_bytes + state * plan.job.particles + (state > 0 ? diffusion_bytes(plan.job) : 0) +
+         sample_bytes * counts.samples +
          counts.profiles * profile_row_bytes * profile_points(plan.job, box_of(plan.job)) +
          counts.samples * profile_row_bytes * diffusion_points(plan.job) +
          counts.fields * field_bytes(plan.job);

@@ -43,7 +43,8 @@ constexpr std::array all_curves{
     Curve{"enstrophy", "energy_spectrum", "k", "k^2 E_perpendicular, of vorticity [E(0)/sigma]"},
     Curve{"cluster_sizes", "cluster_sizes", "s", "share of particles in clusters of s to 2s-1"},
     Curve{"mean_cluster", "cluster_sizes", "s", "mean size of a particle's cluster, at s = 1"},
-    Curve{"msd", "msd", "lag", "mean square displacement since tau, lag collisions later [sigma^2]"},
+    Curve{"msd", "msd", "lag",
+          "mean square displacement since tau, lag collisions later [sigma^2]"},
     Curve{"diffusion", "msd", "lag", "slope of msd over 2d, D/omega [sigma^2]"},
     Curve{"vacf", "vacf", "lag", "correlation of velocities with those at tau"},
 };
@@ -74,7 +75,8 @@ std::optional<double> waiting_time(std::string_view observable) {
   if (name != "msd" && name != "vacf") return std::nullopt;
   double tau = 0;
   if (name.size() < observable.size())
-    std::from_chars(observable.data() + name.size() + 1, observable.data() + observable.size(), tau);
+    std::from_chars(observable.data() + name.size() + 1, observable.data() + observable.size(),
+                    tau);
   return tau;
 }
 

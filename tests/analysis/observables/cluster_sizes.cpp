@@ -13,8 +13,8 @@ using namespace haff::analysis;
 using doctest::Approx;
 
 TEST_CASE("cluster_sizes: a chain through a face of the box, a pair, and one alone") {
-  const std::vector<Vector> position{{0.5, 5, 5}, {9.5, 5, 5}, {8.45, 5, 5},  // 1.0 and 1.05 apart
-                                     {3, 3, 3},   {3, 4.09, 3},               // 1.09 apart
+  const std::vector<Vector> position{{0.5, 5, 5}, {9.5, 5, 5},  {8.45, 5, 5},  // 1.0 and 1.05 apart
+                                     {3, 3, 3},   {3, 4.09, 3},                // 1.09 apart
                                      {6, 8, 8}};
   const auto found = cluster_sizes(position, 10);
   CHECK(found.size == std::vector<double>{1, 2, 4});
@@ -38,12 +38,13 @@ TEST_CASE("cluster_sizes: particles anywhere are alone as often as Poisson says"
     CAPTURE(d);
     Random random(10);
     const std::size_t count = 40000;
-    const double v = d == 3 ? 4 * std::numbers::pi / 3 * bond * bond * bond
-                            : std::numbers::pi * bond * bond;
+    const double v =
+        d == 3 ? 4 * std::numbers::pi / 3 * bond * bond * bond : std::numbers::pi * bond * bond;
     const double box = std::pow(static_cast<double>(count) * v / 0.5, 1.0 / d);
     const auto found = cluster_sizes(anywhere(count, box, random), box, d);
     const double p = std::exp(-0.5);
-    CHECK(std::abs(found.share[0] - p) < 5 * std::sqrt(2 * p * (1 - p) / static_cast<double>(count)));
+    CHECK(std::abs(found.share[0] - p) <
+          5 * std::sqrt(2 * p * (1 - p) / static_cast<double>(count)));
     CHECK(std::accumulate(found.share.begin(), found.share.end(), 0.0) == Approx(1));
   }
 }

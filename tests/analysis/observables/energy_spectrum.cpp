@@ -27,9 +27,9 @@ double energy_of_shell(const EnergySpectrum& found, const std::vector<double>& s
 
 TEST_CASE("energy_spectrum: a shear wave and a sound wave, on a lattice") {
   // v = cos(2 pi m x / L) along y or x, m = 2. N^2/4 in each of two modes; shell 2 has all modes of
-  // 1.5 to 2.5: 86 in space, 12 in the plane. A mesh point in each cell has no error but what shares
-  // between points do to the carried wave, which is taken out: to within what is folded into the
-  // mode from the lattice itself, (pi m / 20)^2 / 3 of its amplitude at most.
+  // 1.5 to 2.5: 86 in space, 12 in the plane. A mesh point in each cell has no error but what
+  // shares between points do to the carried wave, which is taken out: to within what is folded into
+  // the mode from the lattice itself, (pi m / 20)^2 / 3 of its amplitude at most.
   for (const int d : {2, 3}) {
     CAPTURE(d);
     const double box = 20;
@@ -40,13 +40,14 @@ TEST_CASE("energy_spectrum: a shear wave and a sound wave, on a lattice") {
       shear[i] = {0, wave, 0};
       sound[i] = {wave, 0, 0};
     }
-    const double modes = d == 3 ? 62 : 12;  // counted by hand: squares 3 to 6
+    const double modes = d == 3 ? 62 : 12;     // counted by hand: squares 3 to 6
     const double each = 2 * 0.25 / 2 / modes;  // |p|^2/(2 N^2), on average over the shell
     const auto of_shear = energy_spectrum(position, shear, {}, box, d);
     const auto of_sound = energy_spectrum(position, sound, {}, box, d);
     CHECK(energy_of_shell(of_shear, of_shear.transverse, 1, box, d) == Approx(each).epsilon(0.07));
     CHECK(std::abs(energy_of_shell(of_shear, of_shear.longitudinal, 1, box, d)) < 0.01 * each);
-    CHECK(energy_of_shell(of_sound, of_sound.longitudinal, 1, box, d) == Approx(each).epsilon(0.07));
+    CHECK(energy_of_shell(of_sound, of_sound.longitudinal, 1, box, d) ==
+          Approx(each).epsilon(0.07));
     CHECK(std::abs(energy_of_shell(of_sound, of_sound.transverse, 1, box, d)) < 0.01 * each);
     // All of the shell's energy is at k = 2 pi 2 / L.
     CHECK(of_shear.enstrophy[1] / of_shear.transverse[1] ==
@@ -55,8 +56,8 @@ TEST_CASE("energy_spectrum: a shear wave and a sound wave, on a lattice") {
 }
 
 TEST_CASE("energy_spectrum: equipartition of thermal velocities") {
-  // |p|^2 of a mode is a sum of d squares of Gaussians; half of the modes are independent. Shells 1 to
-  // 8, two spectra, within 4.5 standard errors: false alarm in one of 5000 seeds.
+  // |p|^2 of a mode is a sum of d squares of Gaussians; half of the modes are independent. Shells 1
+  // to 8, two spectra, within 4.5 standard errors: false alarm in one of 5000 seeds.
   for (const int d : {2, 3}) {
     CAPTURE(d);
     Random random(8);

@@ -1,5 +1,5 @@
-// g(r) of particles placed anywhere, on a lattice, and by brute force. What it is in an elastic gas is
-// in tests/validate/observables.cpp.
+// g(r) of particles placed anywhere, on a lattice, and by brute force. What it is in an elastic gas
+// is in tests/validate/observables.cpp.
 #include "analysis/observables/pair_distribution.hpp"
 
 #include <doctest/doctest.h>
@@ -14,8 +14,8 @@ using doctest::Approx;
 
 TEST_CASE("pair_distribution: particles that are anywhere have g = 1, at contact too") {
   // Of 20 000 particles in a box of 40, a bin holds at least 390 pairs in the plane and 12 000 in
-  // space; 60 bins within 4.5 standard errors, false alarm in one of 2500 seeds. chi has the variance
-  // of the header.
+  // space; 60 bins within 4.5 standard errors, false alarm in one of 2500 seeds. chi has the
+  // variance of the header.
   for (const int d : {2, 3}) {
     CAPTURE(d);
     Random random(5);
@@ -30,8 +30,9 @@ TEST_CASE("pair_distribution: particles that are anywhere have g = 1, at contact
     const double n = particles / std::pow(box, d);
     for (std::size_t b = 1; b < all.g.size(); ++b) {
       const double low = all.r[b] - 0.025, high = all.r[b] + 0.025;
-      const double shell = d == 3 ? 4 * std::numbers::pi / 3 * (std::pow(high, 3) - std::pow(low, 3))
-                                  : std::numbers::pi * (high * high - low * low);
+      const double shell = d == 3
+                               ? 4 * std::numbers::pi / 3 * (std::pow(high, 3) - std::pow(low, 3))
+                               : std::numbers::pi * (high * high - low * low);
       CHECK(std::abs(all.g[b] - 1) < 4.5 / std::sqrt(0.5 * particles * n * shell));
     }
     const double surface = d == 3 ? 4 * std::numbers::pi : 2 * std::numbers::pi;
@@ -43,7 +44,8 @@ TEST_CASE("pair_distribution: particles that are anywhere have g = 1, at contact
 TEST_CASE("pair_distribution: two species, and each with itself, make up all pairs") {
   Random random(6);
   const auto all = anywhere(3000, 20, random);
-  const std::vector<Vector> one(all.begin(), all.begin() + 1000), other(all.begin() + 1000, all.end());
+  const std::vector<Vector> one(all.begin(), all.begin() + 1000),
+      other(all.begin() + 1000, all.end());
   const auto a = pair_distribution(one, 20), b = pair_distribution(other, 20),
              both = pair_distribution(one, other, 20, 1), whole = pair_distribution(all, 20);
   const double of_a = 1000 * 999 / 2, of_b = 2000.0 * 1999 / 2, of_both = 1000 * 2000;

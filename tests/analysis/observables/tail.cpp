@@ -22,8 +22,8 @@ std::vector<Vector> with_tail(std::size_t count, double A, double alpha, Random&
     // From an exponential of the rate that the tail has where it begins.
     const double rate = 0.5 * A * alpha * std::pow(3, alpha - 1);
     const double c = 3 - std::log(random.uniform()) / rate;
-    const double ratio =
-        std::pow(c / 3, 2) * std::exp(-A * (std::pow(c, alpha) - std::pow(3, alpha)) + rate * (c - 3));
+    const double ratio = std::pow(c / 3, 2) *
+                         std::exp(-A * (std::pow(c, alpha) - std::pow(3, alpha)) + rate * (c - 3));
     if (random.uniform() * 2 > ratio) continue;  // ratio < 2 for all tails below
     velocity.push_back({c, 0, 0});
     squares += c * c;

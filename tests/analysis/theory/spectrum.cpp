@@ -23,9 +23,11 @@ TEST_CASE("spectrum: long waves keep their energy, short ones cool with the gas"
 
 TEST_CASE("spectrum: equilibrium energy of a mode is T/2 for each direction") {
   const double k = 0.7, n = 0.4, particles = 1000;
-  const double modes = particles / n * 4 * std::acos(-1.0) * k * k / std::pow(2 * std::acos(-1.0), 3);
+  const double modes =
+      particles / n * 4 * std::acos(-1.0) * k * k / std::pow(2 * std::acos(-1.0), 3);
   CHECK(equilibrium_spectrum(k, n, 0.5, true) * particles == Approx(modes * 0.25));
-  CHECK(equilibrium_spectrum(k, n, 0.5, false) == Approx(2 * equilibrium_spectrum(k, n, 0.5, true)));
+  CHECK(equilibrium_spectrum(k, n, 0.5, false) ==
+        Approx(2 * equilibrium_spectrum(k, n, 0.5, true)));
   CHECK(equilibrium_spectrum(k, n, 0.5, false, 2) ==
         Approx(equilibrium_spectrum(k, n, 0.5, true, 2)));
 }

@@ -116,8 +116,8 @@ TEST_CASE("diffusion: a checkpoint carries images and waiting times to the last 
 
 TEST_CASE("diffusion: a dilute elastic gas diffuses as Enskog's theory says") {
   // 4000 particles: a mean square displacement is known to sqrt(2/(3N)) = 1.3 %, its slope between
-  // tau = 5 and 20 to about 1.5 %. Within 7 %, 4.5 standard errors: false alarm in one of 10^5 seeds.
-  // The theory errs by less than 1 % at n = 0.01.
+  // tau = 5 and 20 to about 1.5 %. Within 7 %, 4.5 standard errors: false alarm in one of 10^5
+  // seeds. The theory errs by less than 1 % at n = 0.01.
   const auto physics = job(0.01, 4000, {"msd@5", "vacf@5"});
   Followed followed(physics, start_of(physics));
   followed.sample_at(5);

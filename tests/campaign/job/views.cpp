@@ -126,8 +126,8 @@ TEST_CASE("views: of a mixture each pair of species, and temperatures by mass") 
   auto physics = job(1, 2000);
   physics.n = 0.2;
   physics.effects = R"({"mixture":{"diameter_ratio":0.5,"fraction":0.5,"mass_ratio":0.1}})";
-  physics.observables = {"clusters",      "correlations",    "distribution", "energy_spectrum",
-                         "cluster_sizes", "fields",          "structure",    "pair_distribution"};
+  physics.observables = {"clusters",      "correlations", "distribution", "energy_spectrum",
+                         "cluster_sizes", "fields",       "structure",    "pair_distribution"};
   physics.profiles_every = 10;
   physics.fields_at = {10};
   auto gas = ::gas(physics);
@@ -146,8 +146,8 @@ TEST_CASE("views: of a mixture each pair of species, and temperatures by mass") 
   for (std::size_t i = 0; i < S.value.size(); ++i)
     CHECK(one.value[i] + 2 * cross.value[i] + two.value[i] ==
           doctest::Approx(S.value[i]).epsilon(1e-12));
-  // In equilibrium rho(0) = 1 if speeds are weighed by mass, and 3 or more if they are not. The first
-  // bins to c = 0.5 hold 5 % of 2000 particles: within 5 standard errors.
+  // In equilibrium rho(0) = 1 if speeds are weighed by mass, and 3 or more if they are not. The
+  // first bins to c = 0.5 hold 5 % of 2000 particles: within 5 standard errors.
   const auto rho = profile("rho");
   CHECK(rho.value[4] == doctest::Approx(std::exp(-0.45 * 0.45)).epsilon(0.5));
   CHECK(sample.correlation_trace);

@@ -644,8 +644,9 @@ TEST_CASE("observables that need a larger box are refused") {
 }
 
 TEST_CASE("waiting times of msd and vacf are samples of the run, spelled in one way, and few") {
-  CHECK(complaint(with("observables", R"(["msd", "msd@20", "vacf@0.5"])")) ==
-        "g.json: /observables/2: 0.5 falls between samples; expected a multiple of sample_every = 1");
+  CHECK(
+      complaint(with("observables", R"(["msd", "msd@20", "vacf@0.5"])")) ==
+      "g.json: /observables/2: 0.5 falls between samples; expected a multiple of sample_every = 1");
   CHECK(complaint(with("observables", R"("msd@20.0")")).find("/observables: \"msd@20.0\" is not") !=
         std::string::npos);
   CHECK(complaint(with("observables", R"("laguerre@20")")).find("is not accepted") !=
