@@ -369,10 +369,13 @@ LogSize Database::copy_log() {
 
 bool Database::close_log(std::chrono::milliseconds patience) {
   constexpr std::chrono::milliseconds pause{20};
+  const auto leave_log = [&] {
+    sqlite3_db_config(sqlite_->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  };
   const auto is_displaced = [&] {
     if (!displaced()) return false;
     // SQLite would copy the log into the file that took our place, or delete that file's own log.
-    sqlite3_db_config(sqlite_->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    leave_log();
     return true;
   };
   copier_.reset();
@@ -388,9 +391,12 @@ bool Database::close_log(std::chrono::milliseconds patience) {
       throw SQLite::Exception("the log stays", SQLITE_BUSY);
     } catch (const SQLite::Exception& error) {
       if (is_displaced()) return false;
-      if ((error.getErrorCode() & 0xff) != SQLITE_BUSY) raise(path_, error);
-      if (std::chrono::steady_clock::now() >= until) {
+      const bool is_busy = (error.getErrorCode() & 0xff) == SQLITE_BUSY;
+      if (!is_busy || std::chrono::steady_clock::now() >= until) {
+        // SQLite would delete the log of a file that says that it has one.
+        leave_log();
         sqlite_->tryExec(log_is_open);
+        if (!is_busy) raise(path_, error);
         return false;
       }
       std::this_thread::sleep_for(pause);

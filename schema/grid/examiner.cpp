@@ -211,14 +211,12 @@ class Examiner {
     const auto belongs = [&](const Placed& item) {
       const double tau = item.value.get<double>();
       if (tau > longest)
-        throw fault(
-            file_, item.where,
-            shown(item.value) + " is beyond the run; expected at most tau_max = " + text(longest));
+        throw fault(file_, item.where,
+                    text(tau) + " is beyond the run; expected at most tau_max = " + text(longest));
       for (const double sample_every : source.list<double>("sample_every"))
         if (!is_multiple(tau, sample_every))
           throw fault(file_, item.where,
-                      shown(item.value) +
-                          " falls between samples; expected a multiple of sample_every = " +
+                      text(tau) + " falls between samples; expected a multiple of sample_every = " +
                           text(sample_every));
     };
     if (std::any_of(names.begin(), names.end(), is_profile)) belongs(source["profiles_every"]);
