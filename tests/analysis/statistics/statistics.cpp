@@ -95,6 +95,16 @@ TEST_CASE("statistics: the error of a short, correlated series is not too small 
   CHECK(std::sqrt(error_square / mean_square) < 1.2);
 }
 
+// With fewer, the error of the error would exceed a quarter.
+TEST_CASE("statistics: eight blocks at least, however long a series remembers") {
+  for (const double rho : {0.99, 0.999})
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+      const BlockEstimate blocks = block_estimate(autoregressive(rho, 256, seed));
+      CHECK(blocks.block_length == 32);
+      CHECK(blocks.estimate.count == 8);
+    }
+}
+
 TEST_CASE("statistics: a constant series has no error, a short one is refused") {
   CHECK(block_estimate(std::vector<double>(100, 3.0)).estimate.standard_error == 0);
   CHECK_THROWS_AS(block_estimate(std::vector{1.0}), std::invalid_argument);

@@ -43,6 +43,13 @@ TEST_CASE("timetable: a last sample that rounding puts above tau_max is one") {
   CHECK(sample_count(7, 6) == 1);
 }
 
+TEST_CASE("timetable: the synchronization at or after a tau") {
+  CHECK(synchronization_at_or_after(0) == 0);
+  CHECK(synchronization_at_or_after(1) == 1);
+  CHECK(synchronization_at_or_after(10) == 1);
+  CHECK(synchronization_at_or_after(10.5) == 2);
+}
+
 TEST_CASE("timetable: every synchronization up to the last sample") {
   CHECK(taus(all(Timetable(job(5), 34, 10)), Stop::Due::synchronization) ==
         std::vector<double>{10, 20, 30});

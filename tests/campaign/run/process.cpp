@@ -79,6 +79,7 @@ TEST_CASE("abandoned: a lease that is renewed, or passes to another worker, begi
   CHECK_FALSE(watch.is_abandoned(job, start));
   job.renewed = "2003-09-05T12:00:05.000Z";
   CHECK_FALSE(watch.is_abandoned(job, start + step));
+  CHECK_FALSE(watch.is_abandoned(job, start + 2 * step - std::chrono::seconds(1)));
   job.lease.token = 1;
   CHECK_FALSE(watch.is_abandoned(job, start + 2 * step));
   CHECK_FALSE(watch.is_abandoned(job, start + 3 * step));
