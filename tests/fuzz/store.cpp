@@ -39,7 +39,7 @@ void read_all(Query query) {
   }
 }
 
-void read_job(const Reader& store, std::int64_t job_id) {
+void read_job(const Reader& store, std::int64_t job_id, Store& home) {
   attempt([&] { store.digests(job_id); });
   attempt([&] { store.samples(job_id); });
   attempt([&] { store.last_sample(job_id, 3); });
@@ -51,7 +51,7 @@ void read_job(const Reader& store, std::int64_t job_id) {
   });
   attempt([&] { campaign::stored_state(store, job_id, store.job(job_id).job); });
   // As a shard that is merged.
-  attempt([&] { Store::in_memory().take_over(store, job_id); });
+  attempt([&] { home.take_over(store, job_id); });
 }
 
 void read(const std::filesystem::path& file) {
@@ -71,7 +71,8 @@ void read(const std::filesystem::path& file) {
                            "target_outcomes", "job_effects", "mixed_physics"})
     attempt([&] { read_all(store.query(std::string("SELECT * FROM ") + view)); });
   attempt([&] {
-    for (const std::int64_t job_id : store.job_ids()) read_job(store, job_id);
+    Store home = Store::in_memory();
+    for (const std::int64_t job_id : store.job_ids()) read_job(store, job_id, home);
   });
 }
 
