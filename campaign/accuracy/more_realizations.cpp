@@ -31,10 +31,11 @@ std::vector<schema::Planned> realization(const schema::JobRow& like, std::uint64
 
 }  // namespace
 
-int add_realizations(schema::Store& store, std::optional<double> affordable) {
+int add_realizations(schema::Store& store, const std::vector<schema::Target>& targets,
+                     std::optional<double> affordable) {
   // Targets of one series are served by the same realizations.
   std::map<std::string, std::size_t> missing;
-  for (const TargetProgress& each : progress_of(store, store.targets()))
+  for (const TargetProgress& each : progress_of(store, targets))
     if (each.verdict == Verdict::short_of) {
       std::size_t& most = missing[each.target.series];
       most = std::max(most, each.next - each.estimate.count);

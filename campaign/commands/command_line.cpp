@@ -40,9 +40,9 @@ CLI::App* add_document(CLI::App& app, std::string& kind) {
 }
 
 // Those that print a table or the like, and print JSON when asked.
-constexpr std::string_view with_json[] = {"plan",  "run",    "status", "explain",
-                                          "query", "theory", "verify", "retry",
-                                          "split", "merge",  "recall", "cost"};
+constexpr std::string_view with_json[] = {"plan",   "run",    "status", "explain", "query",
+                                          "theory", "verify", "retry",  "cancel",  "split",
+                                          "merge",  "recall", "cost"};
 
 std::string names_with_json() {
   return fmt::format("{}", fmt::join(with_json, ", "));
@@ -124,6 +124,16 @@ std::string examples(const char* text) {
       text, default_store);
 }
 
+std::string not_empty(const std::string& text) {
+  return text.find_first_not_of(" \t\n") == std::string::npos ? "is empty" : "";
+}
+
+CLI::Option* add_where(CLI::App* command, std::string& where, const std::string& what) {
+  return command->add_option("--where", where, what)
+      ->check(CLI::Validator(not_empty, ""))
+      ->type_name("SQL");
+}
+
 double seconds_given(const std::string& option, const std::string& text) {
   if (const auto seconds = seconds_from_text(text)) return *seconds;
   throw CLI::ValidationError(option,
@@ -166,6 +176,7 @@ Parsed parse_command_line(int argc, const char* const* argv) {
   offered.add(add_cost);
   offered.add(add_verify);
   offered.add(add_retry);
+  offered.add(add_cancel);
   offered.add(add_backup);
   offered.add(add_upgrade);
   offered.add(add_split);

@@ -19,6 +19,7 @@
 #include "campaign/commands/run/plan.hpp"
 #include "campaign/commands/run/run.hpp"
 #include "campaign/commands/run/status.hpp"
+#include "campaign/commands/store/cancel.hpp"
 #include "campaign/commands/store/verify.hpp"
 #include "campaign/figures/figures.hpp"
 
@@ -43,13 +44,14 @@ struct WorkerCommand {  // what `run` starts; not for people
   int report_descriptor = 0;
   int threads = 1;
   std::optional<double> until;  // on the monotonic clock [s]
+  std::string where, order;
 };
 
 using Command = std::variant<PlanOptions, RunOptions, StatusOptions, ExplainCommand, QueryCommand,
                              FigureRequest, PlotOptions, CostRequest, ExportCommand, VerifyOptions,
-                             RetryCommand, BackupCommand, UpgradeCommand, SplitOptions,
-                             MergeOptions, RecallOptions, SubmitOptions, TaskOptions, TheoryOptions,
-                             ReportOptions, WorkerCommand>;
+                             RetryCommand, CancelOptions, BackupCommand, UpgradeCommand,
+                             SplitOptions, MergeOptions, RecallOptions, SubmitOptions, TaskOptions,
+                             TheoryOptions, ReportOptions, WorkerCommand>;
 
 struct CommandLine {
   std::filesystem::path store;

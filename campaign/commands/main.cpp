@@ -25,6 +25,7 @@
 #include "campaign/commands/run/run.hpp"
 #include "campaign/commands/run/status.hpp"
 #include "campaign/commands/store/backup.hpp"
+#include "campaign/commands/store/cancel.hpp"
 #include "campaign/commands/store/retry.hpp"
 #include "campaign/commands/store/upgrade.hpp"
 #include "campaign/commands/store/verify.hpp"
@@ -87,6 +88,10 @@ struct CommandDispatcher {
     const HostLock lock(line.store, Use::write);
     return retry(line.store, line.json);
   }
+  int operator()(const CancelOptions& options) const {
+    const HostLock lock(line.store, options.dry_run ? Use::read : Use::write);
+    return cancel(options);
+  }
   int operator()(const SplitOptions& options) const {
     const HostLock lock(line.store, Use::write);
     return split(options);
@@ -122,7 +127,11 @@ struct CommandDispatcher {
   int operator()(const WorkerCommand& command) const {
     std::optional<Deadline> deadline;
     if (command.until) deadline = Deadline(Deadline::duration(*command.until));
-    return work(line.store, command.report_descriptor, deadline, command.threads);
+    return work(line.store, command.report_descriptor,
+                {.deadline = deadline,
+                 .threads = command.threads,
+                 .where = command.where,
+                 .order = command.order});
   }
 };
 

@@ -27,6 +27,13 @@ CLI::Option* add_duration(CLI::App* command, const std::string& name, Seconds& s
   return command->add_option_function<std::string>(name, set, what)->type_name("TIME");
 }
 
+// An option --where: a condition in SQL over the table jobs (schema/store/choice.hpp).
+CLI::Option* add_where(CLI::App* command, std::string& where, const std::string& what);
+
+// What is wrong with the text of an option that may not be empty: CLI11 does not tell it from one
+// that was not given.
+std::string not_empty(const std::string& text);
+
 // run/options.cpp
 CLI::App* add_plan(CLI::App& app, PlanOptions& options);
 CLI::App* add_run(CLI::App& app, RunOptions& options);
@@ -37,6 +44,7 @@ CLI::App* add_worker(CLI::App& app, WorkerCommand& options);
 // store/options.cpp
 CLI::App* add_verify(CLI::App& app, VerifyOptions& options);
 CLI::App* add_retry(CLI::App& app, RetryCommand& options);
+CLI::App* add_cancel(CLI::App& app, CancelOptions& options);
 CLI::App* add_backup(CLI::App& app, BackupCommand& options);
 CLI::App* add_upgrade(CLI::App& app, UpgradeCommand& options);
 

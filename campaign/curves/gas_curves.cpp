@@ -10,6 +10,7 @@
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/curves/observations.hpp"
 #include "campaign/results/averages.hpp"
+#include "schema/database/sql_names.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -180,7 +181,7 @@ std::string take_out(const std::set<std::string>& variable, Scene& scene) {
 
 std::vector<GasCurve> joined(const Topic& topic, std::vector<GasCurve> singles) {
   std::set<std::string> variable;
-  for (const std::string& name : names_in(topic.x))
+  for (const std::string& name : schema::names_in(topic.x))
     variable.insert(name == "particles" ? "N" : name);
   std::map<std::string, std::size_t> place;
   std::vector<GasCurve> curves;

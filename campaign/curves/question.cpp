@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "campaign/base/text/number_text.hpp"
+#include "schema/database/sql_names.hpp"
 #include "schema/grid/suggestion.hpp"
 
 namespace haff::campaign {
@@ -29,7 +30,7 @@ bool is_profile(const Vocabulary& words, const std::string& name) {
 }
 
 bool mentions_tau(const std::string& sql) {
-  return has(names_in(sql), "tau");
+  return has(schema::names_in(sql), "tau");
 }
 
 std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
@@ -40,7 +41,7 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
 
 // An expression in parameters alone.
 bool is_of_parameters(const std::string& sql, const Vocabulary& words) {
-  const auto names = names_in(sql);
+  const auto names = schema::names_in(sql);
   return !names.empty() && std::ranges::all_of(names, [&](const std::string& name) {
     return is_parameter(words, name);
   });
@@ -49,7 +50,7 @@ bool is_of_parameters(const std::string& sql, const Vocabulary& words) {
 // Every name of an expression is a column or a parameter; other errors in it are SQLite's to tell.
 void check_expression(const std::string& sql, const Vocabulary& words,
                       const std::vector<std::string>& known) {
-  const auto names = names_in(sql);
+  const auto names = schema::names_in(sql);
   if (names.empty()) throw QuestionError(fmt::format("{} names nothing to draw{}", sql, see_list));
   for (const std::string& name : names) {
     if (is_column(words, name) || is_parameter(words, name)) continue;

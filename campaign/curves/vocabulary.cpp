@@ -7,6 +7,7 @@
 #include <cctype>
 #include <variant>
 
+#include "schema/database/sql_names.hpp"
 #include "schema/grid/observables.hpp"
 
 namespace haff::campaign {
@@ -83,41 +84,6 @@ std::string sample_before(std::string_view column) {
       column);
 }
 
-// Calls `word` for each name outside of quotes and `rest` for everything between.
-template <class Word, class Rest>
-void scan(std::string_view sql, Word&& word, Rest&& rest) {
-  const auto letter = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
-  };
-  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-  for (std::size_t i = 0; i < sql.size();) {
-    const char c = sql[i];
-    std::size_t end = i + 1;
-    if (c == '\'' || c == '"') {
-      while (end < sql.size() && sql[end] != c) ++end;
-      end = std::min(end + 1, sql.size());
-      rest(sql.substr(i, end - i));
-    } else if (digit(c) || (c == '.' && i + 1 < sql.size() && digit(sql[i + 1]))) {
-      while (end < sql.size() &&
-             (letter(sql[end]) || ((sql[end] == '-' || sql[end] == '+') &&
-                                   (sql[end - 1] == 'e' || sql[end - 1] == 'E'))))
-        ++end;
-      rest(sql.substr(i, end - i));
-    } else if (letter(c)) {
-      while (end < sql.size() && letter(sql[end])) ++end;
-      const auto next = sql.find_first_not_of(' ', end);
-      const bool is_function = next != std::string_view::npos && sql[next] == '(';
-      if (is_function)
-        rest(sql.substr(i, end - i));
-      else
-        word(sql.substr(i, end - i));
-    } else {
-      rest(sql.substr(i, 1));
-    }
-    i = end;
-  }
-}
-
 }  // namespace
 
 const std::vector<DerivedColumn> derived_columns = {
@@ -152,49 +118,27 @@ std::string profile_variable(std::string_view profile) {
   return curve == nullptr ? "x" : std::string(curve->variable);
 }
 
-std::vector<std::string> names_in(std::string_view sql) {
-  std::vector<std::string> names;
-  scan(
-      sql, [&](std::string_view name) { names.emplace_back(name); }, [](std::string_view) {});
-  return names;
-}
-
 std::string translated(const std::string& sql, const Vocabulary& words) {
-  std::string result;
-  const auto keep = [&](std::string_view text) { result += text; };
-  scan(
-      sql,
-      [&](std::string_view name) {
-        if (name == "N")
-          result += "particles";
-        else if (is_effect(name) &&
-                 std::ranges::find(words.parameters, name) != words.parameters.end())
-          result += in_quotes(name, '"');
-        else
-          result += name;
-      },
-      keep);
-  return result;
+  return schema::with_names(sql, [&](std::string_view name) {
+    if (name == "N") return std::string("particles");
+    const bool is_known = std::ranges::find(words.parameters, name) != words.parameters.end();
+    return is_effect(name) && is_known ? in_quotes(name, '"') : std::string(name);
+  });
 }
 
 bool is_of_interval(std::string_view sql) {
   constexpr std::array<std::string_view, 4> columns{"gamma_ratio", "collision_rate", "pressure",
                                                     "Z"};
-  return std::ranges::any_of(names_in(sql), [&](const std::string& name) {
+  return std::ranges::any_of(schema::names_in(sql), [&](const std::string& name) {
     return std::ranges::find(columns, name) != columns.end();
   });
 }
 
 std::string at_middles(const std::string& sql) {
-  std::string result;
-  scan(
-      sql,
-      [&](std::string_view name) {
-        const bool moves = name == "tau" || name == "time";
-        result += moves ? "middle_" + std::string(name) : std::string(name);
-      },
-      [&](std::string_view text) { result += text; });
-  return result;
+  return schema::with_names(sql, [](std::string_view name) {
+    const bool moves = name == "tau" || name == "time";
+    return (moves ? "middle_" : "") + std::string(name);
+  });
 }
 
 std::string job_rows(const Vocabulary& words) {

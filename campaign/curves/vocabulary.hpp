@@ -35,9 +35,6 @@ extern const std::vector<DerivedColumn> derived_columns;
 // one that this program does not know.
 std::string profile_variable(std::string_view profile);
 
-// Names in an SQL expression: words, with dots, that are no functions, outside of quotes.
-std::vector<std::string> names_in(std::string_view sql);
-
 // The user's SQL with N as particles and parameters of effects as columns of the rows below.
 std::string translated(const std::string& sql, const Vocabulary& words);
 

@@ -237,7 +237,7 @@ ordered_json explanation_json(const Explanation& explanation) {
           {"job", describe(row.job)},
           {"kind", name(row.job.kind)},
           {"status", name(row.status)},
-          {"tau", row.progress.tau},
+          {"tau_reached", row.progress.tau},
           {"tau_max", row.tau_max},
           {"attempts", row.attempts},
           {"error", row.error ? ordered_json(*row.error) : ordered_json(nullptr)},

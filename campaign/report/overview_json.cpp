@@ -34,7 +34,7 @@ ordered_json running_json(const schema::RunningJob& job) {
   ordered_json object = physics_json(job.job);
   object.update({{"job_id", job.lease.job_id},
                  {"seed", job.job.seed},
-                 {"tau", job.progress.tau},
+                 {"tau_reached", job.progress.tau},
                  {"tau_max", job.tau_max},
                  {"host", job.owner.host},
                  {"pid", job.owner.pid},
@@ -46,7 +46,7 @@ ordered_json series_json(const Series& series) {
   ordered_json object = physics_json(series.job);
   object.update({{"realizations_planned", series.planned},
                  {"realizations", series.done},
-                 {"tau", series.tau},
+                 {"tau_reached", series.tau},
                  {"tau_max", series.tau_max},
                  {"reached", series.reached},
                  {"tau_c", or_null(series.tau_c)},

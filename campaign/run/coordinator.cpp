@@ -65,7 +65,7 @@ std::optional<Deadline> deadline_of(const RunOptions& options, Clock::time_point
 
 class Coordinator {
  public:
-  Coordinator(schema::Store& store, const RunOptions& options, Clock::time_point start,
+  Coordinator(schema::Selection& store, const RunOptions& options, Clock::time_point start,
               std::size_t workers, EventLog& log)
       : store_(store),
         options_(options),
@@ -125,7 +125,7 @@ class Coordinator {
     for (const auto& [worker, report] : at_work_)
       fields["running"].push_back({{"worker", worker},
                                    {"job_id", report.job_id},
-                                   {"tau", report.tau},
+                                   {"tau_reached", report.tau},
                                    {"tau_max", report.tau_max},
                                    {"collisions_per_second", report.collisions_per_second}});
     log_.add("progress", fields);
@@ -147,8 +147,11 @@ class Coordinator {
   void start_workers() {
     for (std::size_t k = 0; k < workers_.size(); ++k)
       if (!workers_[k] && !has_finished_[k])
-        workers_[k] = std::make_unique<WorkerProcess>(options_.store, deadline_of(options_, start_),
-                                                      options_.threads);
+        workers_[k] = std::make_unique<WorkerProcess>(
+            options_.store, WorkerOptions{.deadline = deadline_of(options_, start_),
+                                          .threads = options_.threads,
+                                          .where = options_.where,
+                                          .order = options_.order});
   }
 
   void listen() {
@@ -350,7 +353,7 @@ class Coordinator {
       if (worker) worker->signal(signal);
   }
 
-  schema::Store& store_;
+  schema::Selection& store_;
   const RunOptions& options_;
   Clock::time_point start_;  // of the run, of which this may be a later round
   EventLog& log_;
@@ -375,7 +378,7 @@ class Coordinator {
 
 }  // namespace
 
-RoundEnd run_round(schema::Store& store, const RunOptions& options,
+RoundEnd run_round(schema::Selection& store, const RunOptions& options,
                    std::chrono::steady_clock::time_point start, EventLog& log) {
   const schema::Summary before = store.summary();
   const auto running = before.jobs.at(schema::Status::running);

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "campaign/run/event_log.hpp"
-#include "schema/store/store.hpp"
+#include "schema/store/choice.hpp"
 
 namespace haff::campaign {
 
@@ -21,6 +21,7 @@ struct RunOptions {
   std::filesystem::path log_json;     // events go here as lines of JSON; empty: nowhere
   std::string on_finish;              // a command for the shell, given at the end; empty: none
   bool json = false;                  // print what came of it as JSON
+  std::string where, order;           // which jobs, in which order (schema/store/choice.hpp)
 };
 
 // What ended a round before its work was done.
@@ -32,9 +33,9 @@ struct RoundEnd {
   std::optional<double> seconds_needed;
 };
 
-// Runs all that is pending and returns when all workers have ended. `start` is that of the whole
-// run, of which this may be a later round: its time limit counts from there.
-RoundEnd run_round(schema::Store& store, const RunOptions& options,
+// Runs all pending jobs that are chosen, and returns when all workers have ended. `start` is that
+// of the whole run, of which this may be a later round: its time limit counts from there.
+RoundEnd run_round(schema::Selection& store, const RunOptions& options,
                    std::chrono::steady_clock::time_point start, EventLog& log);
 
 }  // namespace haff::campaign

@@ -1,6 +1,7 @@
 #include "campaign/run/ledger.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace haff::campaign {
 namespace {
@@ -13,6 +14,11 @@ double weight_of(const schema::JobRow& row) {
   return row.expected_cpu_seconds.value_or(0.5e-6 * row.tau_max * row.job.particles);
 }
 
+// From an index, unless only some jobs count.
+std::map<schema::Status, std::int64_t> counts_of(const schema::Selection& store) {
+  return store.choice().is_everything() ? store.job_counts() : store.summary().jobs;
+}
+
 // Nothing is left to do. Of a failed job, what it had stored counts.
 bool is_complete(schema::Status status) {
   return status == schema::Status::done || status == schema::Status::collapsed;
@@ -20,23 +26,41 @@ bool is_complete(schema::Status status) {
 
 }  // namespace
 
-Ledger::Ledger(const schema::Reader& store) : start_(Clock::now()) {
+Ledger::Ledger(const schema::Selection& store) : start_(Clock::now()) {
   read_all(store);
   weight_at_start_ = done_weight();
 }
 
-void Ledger::refresh(const schema::Reader& store) {
+void Ledger::refresh(const schema::Selection& store) {
   std::set<std::int64_t> running;
   for (const schema::RunningJob& job : store.running()) running.insert(job.lease.job_id);
   restless_.insert(running.begin(), running.end());
-  for (const std::int64_t id : restless_) update(store.job(id));
+  bool some_are_gone = false;
+  for (const std::int64_t id : restless_) try {
+      if (jobs_.contains(id)) update(store.job(id));
+    } catch (const schema::NameError&) {  // it was cancelled meanwhile
+      some_are_gone = true;
+    }
   restless_ = std::move(running);
-  if (store.job_counts() != counts_ && Clock::now() >= next_read_of_all_) read_all(store);
+  if (some_are_gone || (Clock::now() >= next_read_of_all_ && !agrees_with(counts_of(store))))
+    read_all(store);
 }
 
-void Ledger::read_all(const schema::Reader& store) {
+void Ledger::read_all(const schema::Selection& store) {
   const auto before = Clock::now();
-  for (const schema::JobRow& row : store.jobs()) update(row);
+  const bool takes_all = store.choice().is_everything();
+  const auto chosen = takes_all ? std::set<std::int64_t>() : store.job_ids();
+  std::map<std::int64_t, Entry> earlier;
+  std::swap(jobs_, earlier);
+  counts_.clear();
+  for (const schema::JobRow& row : store.jobs()) {
+    if (!takes_all && !chosen.contains(row.job_id)) continue;
+    if (const auto known = earlier.find(row.job_id); known != earlier.end()) {
+      jobs_.insert(*known);
+      ++counts_[known->second.status];
+    }
+    update(row);
+  }
   const auto now = Clock::now();
   next_read_of_all_ =
       now + std::chrono::duration_cast<Clock::duration>((now - before) / share_of_reading);
@@ -62,6 +86,16 @@ void Ledger::note(const ProgressReport& report) {
   const auto entry = jobs_.find(report.job_id);
   if (entry != jobs_.end() && !is_complete(entry->second.status))
     entry->second.fraction = std::min(1.0, report.tau / report.tau_max);
+}
+
+bool Ledger::agrees_with(const std::map<schema::Status, std::int64_t>& counts) const {
+  const auto number = [](const auto& of, schema::Status status) {
+    const auto found = of.find(status);
+    return found == of.end() ? 0 : found->second;
+  };
+  return std::ranges::all_of(schema::statuses, [&](const schema::StatusEntry& entry) {
+    return number(counts_, entry.status) == number(counts, entry.status);
+  });
 }
 
 Totals Ledger::totals() const {

@@ -1,9 +1,10 @@
-// How much of a campaign's work is done, and when the rest will be.
+// How much of the work of a run is done, and when the rest will be.
 //
-// Jobs are weighed by the CPU time expected for them. The store says how far each was when it was
-// last stored; the workers' reports say how far it is now. A look at the store reads what may have
-// changed: the jobs that run, ran at the last look or were reported since. All jobs are read again
-// only when the counts by status tell that something else has changed, and then seldom.
+// Its jobs, all of the store or those that were chosen, are weighed by the CPU time expected for
+// them. The store says how far each was when it was last stored; the workers' reports say how far
+// it is now. A look at the store reads what may have changed: the jobs that run, ran at the last
+// look or were reported since. All jobs are read again only when the counts by status tell that
+// something else has changed, and then seldom.
 #pragma once
 
 #include <chrono>
@@ -11,15 +12,15 @@
 #include <set>
 
 #include "campaign/run/display.hpp"
-#include "schema/store/store.hpp"
+#include "schema/store/choice.hpp"
 
 namespace haff::campaign {
 
 class Ledger {
  public:
-  explicit Ledger(const schema::Reader& store);
+  explicit Ledger(const schema::Selection& store);
 
-  void refresh(const schema::Reader& store);
+  void refresh(const schema::Selection& store);
   void note(const ProgressReport& report);
   Totals totals() const;
 
@@ -32,8 +33,9 @@ class Ledger {
     schema::Status status = schema::Status::pending;
   };
 
-  void read_all(const schema::Reader& store);
+  void read_all(const schema::Selection& store);
   void update(const schema::JobRow& row);
+  bool agrees_with(const std::map<schema::Status, std::int64_t>& counts) const;
   double done_weight() const;
 
   std::map<std::int64_t, Entry> jobs_;

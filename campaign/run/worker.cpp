@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "campaign/base/process/signals.hpp"
 #include "campaign/base/process/version.hpp"
@@ -127,32 +128,33 @@ std::optional<schema::Fit> what_fits(std::optional<Deadline> deadline) {
                      .tau = engine::synchronization_period};
 }
 
-std::optional<double> least_seconds_needed(const schema::Reader& store) {
+std::optional<double> least_seconds_needed(const schema::Selection& store) {
   const auto expected = store.least_seconds_to(engine::synchronization_period);
   return expected ? std::optional(margin * *expected) : std::nullopt;
 }
 
-int work(const std::filesystem::path& path, int report_descriptor, std::optional<Deadline> deadline,
-         int threads) {
+int work(const std::filesystem::path& path, int report_descriptor, const WorkerOptions& options) {
   note_stop_signals();
   const Reporter reporter(report_descriptor);
   try {
-    schema::Store store = schema::Store::open(path);
+    schema::Store whole = schema::Store::open(path);
+    const schema::Choice choice(whole, options.where, options.order);
+    schema::Selection store(std::move(whole), choice);
     store.wait_for_locks_while(may_wait_for_locks);
     const schema::Owner me = this_process();
     while (stop_signal() == 0) {
       const std::int64_t seen = store.change_counter();  // before the look that it is to guard
-      const auto fit = what_fits(deadline);
+      const auto fit = what_fits(options.deadline);
       if (store.has_claimable(fit)) {
         if (const auto claim = store.claim(me, code_version(), fit))
-          work_on(store, *claim, reporter, threads);
+          work_on(store, *claim, reporter, options.threads);
         continue;
       }
       reporter.send(IdleReport{});
       const schema::Summary summary = store.summary();
       if (!may_have_work(summary)) return worker_has_finished;
-      if (deadline && summary.waiting == 0 && summary.claimable > 0 &&
-          !store.has_claimable(what_fits(deadline)))
+      if (options.deadline && summary.waiting == 0 && summary.claimable > 0 &&
+          !store.has_claimable(what_fits(options.deadline)))
         return worker_has_no_time;
       wait_for_change(store, seen);
     }

@@ -4,8 +4,9 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <string>
 
-#include "schema/store/store.hpp"
+#include "schema/store/choice.hpp"
 
 namespace haff::campaign {
 
@@ -24,13 +25,18 @@ std::optional<schema::Fit> what_fits(std::optional<Deadline> deadline);
 
 // The time that the shortest of the jobs that can be claimed needs to store something, with a
 // margin for what the expectation leaves out (a busy machine, a clustered gas). [s]
-std::optional<double> least_seconds_needed(const schema::Reader& store);
+std::optional<double> least_seconds_needed(const schema::Selection& store);
 
-// Works on the store, with so many threads for a job; reports go to this file descriptor. Stops in
-// order on the signals of base/signals.hpp; on SIGUSR1 only after a first checkpoint of its job is
-// stored. Takes no job of which nothing could be stored before the deadline. Returns an exit code
-// of the above.
-int work(const std::filesystem::path& store, int report_descriptor,
-         std::optional<Deadline> deadline, int threads = 1);
+struct WorkerOptions {
+  std::optional<Deadline> deadline =
+      {};                              // no job is taken of which nothing could be stored by then
+  int threads = 1;                     // for a job
+  std::string where = {}, order = {};  // which jobs, and in which order (schema/store/choice.hpp)
+};
+
+// Works on the store; reports go to this file descriptor. Stops in order on the signals of
+// base/signals.hpp; on SIGUSR1 only after a first checkpoint of its job is stored. Returns an exit
+// code of the above.
+int work(const std::filesystem::path& store, int report_descriptor, const WorkerOptions& options);
 
 }  // namespace haff::campaign

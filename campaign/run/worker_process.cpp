@@ -33,8 +33,7 @@ std::system_error system_error(const char* what) {
 
 }  // namespace
 
-WorkerProcess::WorkerProcess(const std::filesystem::path& store, std::optional<Deadline> deadline,
-                             int threads) {
+WorkerProcess::WorkerProcess(const std::filesystem::path& store, const WorkerOptions& options) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw system_error("cannot make a pipe for a worker");
   const auto [read_end, write_end] = ends;
@@ -45,11 +44,14 @@ WorkerProcess::WorkerProcess(const std::filesystem::path& store, std::optional<D
                                  "worker",
                                  std::to_string(write_end),
                                  "--threads",
-                                 std::to_string(threads)};
-  if (deadline) {
+                                 std::to_string(options.threads)};
+  if (options.deadline) {
     words.emplace_back("--until");
-    words.push_back(fmt::format("{}", deadline->time_since_epoch().count()));
+    words.push_back(fmt::format("{}", options.deadline->time_since_epoch().count()));
   }
+  // As one word each: what was typed may begin with a dash.
+  if (!options.where.empty()) words.push_back("--where=" + options.where);
+  if (!options.order.empty()) words.push_back("--order=" + options.order);
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());

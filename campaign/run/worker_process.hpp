@@ -20,9 +20,8 @@ namespace haff::campaign {
 
 class WorkerProcess {
  public:
-  // Starts it. It dies (SIGKILL) with this process, and takes no job of which nothing can be stored
-  // before `deadline`. Throws std::system_error.
-  WorkerProcess(const std::filesystem::path& store, std::optional<Deadline> deadline, int threads);
+  // Starts it. It dies (SIGKILL) with this process. Throws std::system_error.
+  WorkerProcess(const std::filesystem::path& store, const WorkerOptions& options);
   ~WorkerProcess();  // kills and reaps it if it still lives
   WorkerProcess(WorkerProcess&& other) noexcept;
   WorkerProcess& operator=(WorkerProcess&&) = delete;

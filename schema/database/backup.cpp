@@ -44,11 +44,16 @@ void give_back_running_jobs(SQLite::Database& copy) {
   SQLite::Statement jobs(copy, "SELECT job_id FROM jobs WHERE status = 'running'");
   while (jobs.executeStep()) running.push_back(jobs.getColumn(0).getInt64());
   if (has_digests) digests.begin();
-  SQLite::Statement give_back(copy, R"(
+  const bool is_renamed = version_of(copy) >= version_with("019-tau-reached.sql");
+  SQLite::Statement give_back(
+      copy,
+      std::string(R"(
     UPDATE jobs SET
       status = 'pending', owner_boot_id = NULL, owner_pid = NULL, owner_started = NULL,
       renewed = NULL,
-      tau = coalesce((SELECT tau FROM checkpoints WHERE checkpoints.job_id = jobs.job_id), 0),
+      )") +
+          (is_renamed ? "tau_reached" : "tau") +
+          R"( = coalesce((SELECT tau FROM checkpoints WHERE checkpoints.job_id = jobs.job_id), 0),
       collisions =
         coalesce((SELECT collisions FROM checkpoints WHERE checkpoints.job_id = jobs.job_id), 0)
     WHERE job_id = ?)");

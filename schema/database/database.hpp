@@ -7,6 +7,7 @@
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
 
 #include <chrono>
 #include <cstdint>
@@ -119,11 +120,13 @@ class Database {
     });
   }
 
-  // The same as one transaction that reads: all of it sees the store at one moment.
+  // The same as one transaction that reads: all of it sees the store at one moment. Within a
+  // transaction it is a part of that.
   template <class Work>
   auto snapshot(Work&& work) {
     return guarded([&] {
-      SQLite::Transaction transaction(*sqlite_);
+      std::optional<SQLite::Transaction> transaction;
+      if (sqlite3_get_autocommit(sqlite_->getHandle()) != 0) transaction.emplace(*sqlite_);
       return std::forward<Work>(work)();
     });
   }

@@ -84,6 +84,19 @@ ORDER BY d, n, particles, e, equilibrate, sample_every, effects{place})",
                     ",\n       mean_{0} AS {0}, sqrt(variance_{0} / (count_{0} - 1)) AS {0}_se")));
 }
 
+// Each sample beside what its job is. The table jobs stands first: a condition on a gas is looked
+// up there, and then, with one on tau, in the key of samples.
+std::string series_view() {
+  std::string columns;
+  for (const SampleColumn& column : sample_columns) columns += fmt::format(", {}", column.name);
+  return fmt::format(
+      R"(CREATE VIEW series AS
+SELECT job_id, kind, status, d, e, n, particles, seed, equilibrate, sample_every, effects, tau_max,
+       tau, time{}
+FROM jobs CROSS JOIN samples USING (job_id))",
+      columns);
+}
+
 Source mean_of_samples(const char* view, MeanView which) {
   Source source{.view = view, .table = "samples", .place = {"tau"}, .averaged = {}};
   if (which == MeanView::series) source.averaged.emplace_back("time");
@@ -113,7 +126,7 @@ std::string mean_views_script() {
   for (const Source& source :
        {mean_of_samples("mean_series", MeanView::series), temperatures, tau_c, profiles})
     script += fmt::format("DROP VIEW IF EXISTS {};\n{};\n", source.view, sql_of(source));
-  return script;
+  return script + fmt::format("DROP VIEW IF EXISTS series;\n{};\n", series_view());
 }
 
 }  // namespace haff::schema

@@ -53,6 +53,11 @@ std::string list_of_numbers(std::size_t count) {
   return list;
 }
 
+// A column that was renamed goes on under its old name: its digests stay as they are.
+std::string name_in_digests(const std::string& column) {
+  return column == "tau_reached" ? "tau" : column;
+}
+
 // A statement that is used again and again lets go of the store in between.
 class InUse {
  public:
@@ -86,7 +91,7 @@ DigestedTable::DigestedTable(SQLite::Database& sqlite, const char* name) : name_
     SQLite::Statement value(sqlite, "SELECT " + otherwise);
     value.executeStep();
     const bool is_real = info.getColumn(2).getString() == "REAL";
-    columns_.push_back({fnv(column), is_real, word(value.getColumn(0), is_real)});
+    columns_.push_back({fnv(name_in_digests(column)), is_real, word(value.getColumn(0), is_real)});
   }
 }
 
@@ -277,6 +282,12 @@ void Digests::changed_table(const std::string& table) {
 void Digests::forget(std::int64_t job_id, Part part) {
   row(job_id).at(place(part)).reset();
   touched_.insert(job_id);
+}
+
+void Digests::removed(std::int64_t job_id) {
+  known_.erase(job_id);
+  for (auto* jobs : {&checked_, &left_alone_, &new_, &touched_}) jobs->erase(job_id);
+  std::erase_if(changed_, [&](const auto& change) { return change.first == job_id; });
 }
 
 void Digests::leave_alone(std::int64_t job_id) {

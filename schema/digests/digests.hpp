@@ -98,6 +98,8 @@ class Digests {
   void changed_table(const std::string& table);
   // From here on these rows have no digest.
   void forget(std::int64_t job_id, Part part);
+  // All rows of this job have just been deleted. Its number may be given to another one.
+  void removed(std::int64_t job_id);
   // This job's row is wrong and stays known as such, whatever changes in it.
   void leave_alone(std::int64_t job_id);
   // Tables without a digest get one: of a store that is new, or that was brought forward.

@@ -26,7 +26,7 @@ constexpr Table tables[] = {
     {"job_effects", "SELECT * FROM job_effects"},
     {"jobs",
      "SELECT job_id, kind, d, e, n, particles, seed, equilibrate, sample_every, effects, "
-     "observables, tau_max, status, attempts, error, tau, collisions, cpu_seconds, "
+     "observables, tau_max, status, attempts, error, tau_reached, collisions, cpu_seconds, "
      "expected_cpu_seconds, created, started, finished, code_version, host FROM jobs"},
 };
 

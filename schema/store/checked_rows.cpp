@@ -107,7 +107,7 @@ Owner owner(const SQLite::Statement& row) {
 }
 
 Progress progress_of(const SQLite::Statement& row) {
-  return {.tau = not_negative(row, "tau"),
+  return {.tau = not_negative(row, "tau_reached"),
           .collisions = integer(row, "collisions", 0),
           .cpu_seconds = not_negative(row, "cpu_seconds")};
 }

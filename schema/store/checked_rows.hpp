@@ -30,7 +30,8 @@ std::vector<std::uint64_t> seeds_in(const std::string& text);
 // SQL: the CPU time that a job of the table `jobs` is expected to need to get :tau further, or to
 // its end. [s] 0 where nothing is known.
 inline constexpr const char* seconds_to_next_tau =
-    "(coalesce(jobs.expected_cpu_seconds, 0) * min(:tau, jobs.tau_max - jobs.tau) / jobs.tau_max)";
+    "(coalesce(jobs.expected_cpu_seconds, 0) * min(:tau, jobs.tau_max - jobs.tau_reached) / "
+    "jobs.tau_max)";
 
 // SQL: the jobs that can be claimed, as `jobs`, in the order of the index: a claim takes the first
 // and reads no further. SQLite would rather collect all that are pending, and sort them.

@@ -4,6 +4,7 @@
 #include "schema/database/database.hpp"
 #include "schema/store/bind.hpp"
 #include "schema/store/checked_rows.hpp"
+#include "schema/store/claiming.hpp"
 #include "schema/store/lease.hpp"
 #include "schema/store/store.hpp"
 
@@ -20,52 +21,57 @@ std::vector<std::int64_t> ids(SQLite::Database& sqlite, const char* sql) {
 
 }  // namespace
 
+void bind_fit(SQLite::Statement& statement, const std::optional<Fit>& fit) {
+  statement.bind(":seconds", fit ? fit->seconds : std::numeric_limits<double>::max());
+  statement.bind(":tau", fit ? fit->tau : 0);
+}
+
+std::optional<Claim> claim_first(Database& database, const std::string& select, const Owner& owner,
+                                 const std::string& code_version, const std::optional<Fit>& fit) {
+  SQLite::Statement next(database.sqlite(), select);
+  bind_fit(next, fit);
+  std::int64_t job_id = 0;
+  do {
+    next.reset();
+    if (!next.executeStep()) return std::nullopt;
+    job_id = next.getColumn(0).getInt64();
+    next.reset();
+  } while (!is_as_written(database, job_id));
+
+  SQLite::Statement statement(database.sqlite(), R"(
+    UPDATE jobs SET status = 'running', lease = lease + 1, host = :host,
+                    owner_boot_id = :boot_id, owner_pid = :pid, owner_started = :started,
+                    code_version = :code_version, renewed = )" +
+                                                     now + R"(,
+                    started = coalesce(started, )" + now +
+                                                     R"()
+    WHERE job_id = :job_id
+    RETURNING *)");
+  statement.bind(":host", owner.host);
+  statement.bind(":boot_id", owner.boot_id);
+  statement.bind(":pid", owner.pid);
+  statement.bind(":started", owner.started);
+  statement.bind(":code_version", code_version);
+  statement.bind(":job_id", job_id);
+  statement.executeStep();
+  const JobRow row = job_row(statement);
+  return Claim{.lease = {row.job_id, integer(statement, "lease")},
+               .job = row.job,
+               .tau_max = row.tau_max,
+               .checkpoint_every = row.checkpoint_every,
+               .equilibration_id = row.equilibration_id,
+               .attempts = row.attempts,
+               .cpu_seconds = row.progress.cpu_seconds,
+               .starts_over = row.starts_over};
+}
+
 std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_version,
                                   const std::optional<Fit>& fit) {
-  return database().transaction([&]() -> std::optional<Claim> {
-    SQLite::Statement next(database().sqlite(), "SELECT jobs.job_id " +
-                                                    std::string(from_claimable_jobs) + "AND " +
-                                                    seconds_to_next_tau + R"( <= :seconds
-        ORDER BY jobs.kind = 'equilibration' DESC,
-                 coalesce(jobs.expected_cpu_seconds, 0) * (1 - jobs.tau / jobs.tau_max) DESC,
-                 jobs.particles * (jobs.tau_max - jobs.tau) DESC,
-                 jobs.job_id
-        LIMIT 1)");
-    next.bind(":seconds", fit ? fit->seconds : std::numeric_limits<double>::max());
-    next.bind(":tau", fit ? fit->tau : 0);
-    std::int64_t job_id = 0;
-    do {
-      next.reset();
-      if (!next.executeStep()) return std::nullopt;
-      job_id = next.getColumn(0).getInt64();
-      next.reset();
-    } while (!is_as_written(database(), job_id));
-
-    SQLite::Statement statement(database().sqlite(), R"(
-      UPDATE jobs SET status = 'running', lease = lease + 1, host = :host,
-                      owner_boot_id = :boot_id, owner_pid = :pid, owner_started = :started,
-                      code_version = :code_version, renewed = )" +
-                                                         now + R"(,
-                      started = coalesce(started, )" + now +
-                                                         R"()
-      WHERE job_id = :job_id
-      RETURNING *)");
-    statement.bind(":host", owner.host);
-    statement.bind(":boot_id", owner.boot_id);
-    statement.bind(":pid", owner.pid);
-    statement.bind(":started", owner.started);
-    statement.bind(":code_version", code_version);
-    statement.bind(":job_id", job_id);
-    statement.executeStep();
-    const JobRow row = job_row(statement);
-    return Claim{.lease = {row.job_id, integer(statement, "lease")},
-                 .job = row.job,
-                 .tau_max = row.tau_max,
-                 .checkpoint_every = row.checkpoint_every,
-                 .equilibration_id = row.equilibration_id,
-                 .attempts = row.attempts,
-                 .cpu_seconds = row.progress.cpu_seconds,
-                 .starts_over = row.starts_over};
+  return database().transaction([&] {
+    const std::string select = "SELECT jobs.job_id " + std::string(from_claimable_jobs) + "AND " +
+                               seconds_to_next_tau + " <= :seconds ORDER BY " + usual_order +
+                               " LIMIT 1";
+    return claim_first(database(), select, owner, code_version, fit);
   });
 }
 
@@ -132,7 +138,7 @@ bool Store::restart(std::int64_t job_id) {
       return statement.exec();
     };
     if (change(R"(
-          UPDATE jobs SET status = 'pending', attempts = 0, error = NULL, tau = 0, collisions = 0,
+          UPDATE jobs SET status = 'pending', attempts = 0, error = NULL, tau_reached = 0, collisions = 0,
                           finished = NULL, starts_over = 1, physics_version = NULL
           WHERE job_id = ? AND status NOT IN ('running', 'lent'))") == 0)
       return false;

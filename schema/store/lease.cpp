@@ -38,7 +38,7 @@ void must_hold(Database& database, const Lease& lease) {
 
 void note_progress(SQLite::Database& sqlite, const Lease& lease, const Progress& progress) {
   SQLite::Statement statement(sqlite,
-                              "UPDATE jobs SET tau = ?, collisions = ?, cpu_seconds = ?, "
+                              "UPDATE jobs SET tau_reached = ?, collisions = ?, cpu_seconds = ?, "
                               "renewed = iif(status = 'running', " +
                                   now + ", NULL) WHERE job_id = ?");
   statement.bind(1, progress.tau);
@@ -53,8 +53,8 @@ void leave(SQLite::Database& sqlite, const Lease& lease, Status status) {
     UPDATE jobs SET
       status = :status,
       owner_boot_id = NULL, owner_pid = NULL, owner_started = NULL, renewed = NULL,
-      tau = iif(starts_over, 0,
-                coalesce((SELECT tau FROM checkpoints WHERE job_id = :job_id), 0)),
+      tau_reached = iif(starts_over, 0,
+                        coalesce((SELECT tau FROM checkpoints WHERE job_id = :job_id), 0)),
       collisions = iif(starts_over, 0,
                        coalesce((SELECT collisions FROM checkpoints WHERE job_id = :job_id), 0)),
       finished = iif(:status = 'pending', NULL, )" +

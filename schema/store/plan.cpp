@@ -4,6 +4,7 @@
 #include "schema/database/database.hpp"
 #include "schema/store/bind.hpp"
 #include "schema/store/checked_rows.hpp"
+#include "schema/store/claiming.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {
@@ -72,7 +73,9 @@ void extend(SQLite::Database& sqlite, const Planned& planned) {
   statement.exec();
 }
 
-Outcome add(Database& database, const Planned& planned) {
+}  // namespace
+
+Outcome add_or_extend(Database& database, const Planned& planned) {
   SQLite::Database& sqlite = database.sqlite();
   const Outcome what = outcome(sqlite, planned);
   if (what == Outcome::added) insert(sqlite, planned);
@@ -83,14 +86,12 @@ Outcome add(Database& database, const Planned& planned) {
   return what;
 }
 
-}  // namespace
-
 std::vector<Outcome> Store::add(const std::vector<Planned>& plan) {
   return database().transaction([&] {
     std::vector<Outcome> outcomes(plan.size());
     for (const Kind kind : {Kind::equilibration, Kind::cooling})
       for (std::size_t i = 0; i < plan.size(); ++i)
-        if (plan[i].job.kind == kind) outcomes[i] = schema::add(database(), plan[i]);
+        if (plan[i].job.kind == kind) outcomes[i] = add_or_extend(database(), plan[i]);
     return outcomes;
   });
 }

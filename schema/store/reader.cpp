@@ -9,6 +9,7 @@
 #include "schema/database/database.hpp"
 #include "schema/digests/checksum.hpp"
 #include "schema/store/checked_rows.hpp"
+#include "schema/store/claiming.hpp"
 #include "schema/store/job_rows.hpp"
 
 namespace haff::schema {
@@ -41,39 +42,42 @@ const std::filesystem::path& Reader::path() const {
   return database_->path();
 }
 
+Summary summary_of(SQLite::Database& sqlite, const std::string& of_jobs) {
+  Summary summary;
+  for (const StatusEntry& entry : statuses) summary.jobs[entry.status] = 0;
+  SQLite::Statement jobs(sqlite, R"(
+    SELECT status, count(*) AS number, total(cpu_seconds) AS spent,
+           total(expected_cpu_seconds) AS expected,
+           total(expected_cpu_seconds * iif(status IN ('done', 'collapsed'), 1,
+                                            min(1, tau_reached / tau_max))) AS reached,
+           total(expected_cpu_seconds * max(0, 1 - tau_reached / tau_max))
+             FILTER (WHERE status IN ('pending', 'running', 'lent')) AS remaining
+    FROM )" + of_jobs + " GROUP BY status");
+  while (jobs.executeStep()) {
+    summary.jobs[status_named(text(jobs, "status"))] = integer(jobs, "number");
+    summary.cpu_seconds += real(jobs, "spent");
+    summary.expected_cpu_seconds += real(jobs, "expected");
+    summary.reached_cpu_seconds += real(jobs, "reached");
+    summary.remaining_cpu_seconds += real(jobs, "remaining");
+  }
+  SQLite::Statement pending(sqlite, R"(
+    SELECT coalesce(equilibration.status, 'done') AS start, count(*) AS number
+    FROM )" + of_jobs + R"( AS waiting
+    LEFT JOIN jobs AS equilibration ON equilibration.job_id = waiting.equilibration_id
+    WHERE waiting.status = 'pending' GROUP BY start)");
+  while (pending.executeStep()) {
+    const Status start = status_named(text(pending, "start"));
+    auto& count = start == Status::done                                  ? summary.claimable
+                  : start == Status::lent                                ? summary.elsewhere
+                  : start == Status::pending || start == Status::running ? summary.waiting
+                                                                         : summary.blocked;
+    count += integer(pending, "number");
+  }
+  return summary;
+}
+
 Summary Reader::summary() const {
-  return database_->snapshot([&] {
-    Summary summary;
-    for (const StatusEntry& entry : statuses) summary.jobs[entry.status] = 0;
-    SQLite::Statement jobs(database_->sqlite(), R"(
-      SELECT status, count(*) AS number, total(cpu_seconds) AS spent,
-             total(expected_cpu_seconds) AS expected,
-             total(expected_cpu_seconds * iif(status IN ('done', 'collapsed'), 1,
-                                              min(1, tau / tau_max))) AS reached,
-             total(expected_cpu_seconds * max(0, 1 - tau / tau_max))
-               FILTER (WHERE status IN ('pending', 'running', 'lent')) AS remaining
-      FROM jobs GROUP BY status)");
-    while (jobs.executeStep()) {
-      summary.jobs[status_named(text(jobs, "status"))] = integer(jobs, "number");
-      summary.cpu_seconds += real(jobs, "spent");
-      summary.expected_cpu_seconds += real(jobs, "expected");
-      summary.reached_cpu_seconds += real(jobs, "reached");
-      summary.remaining_cpu_seconds += real(jobs, "remaining");
-    }
-    SQLite::Statement pending(database_->sqlite(), R"(
-      SELECT coalesce(equilibration.status, 'done') AS start, count(*) AS number
-      FROM jobs LEFT JOIN jobs AS equilibration ON equilibration.job_id = jobs.equilibration_id
-      WHERE jobs.status = 'pending' GROUP BY start)");
-    while (pending.executeStep()) {
-      const Status start = status_named(text(pending, "start"));
-      auto& count = start == Status::done                                  ? summary.claimable
-                    : start == Status::lent                                ? summary.elsewhere
-                    : start == Status::pending || start == Status::running ? summary.waiting
-                                                                           : summary.blocked;
-      count += integer(pending, "number");
-    }
-    return summary;
-  });
+  return database_->snapshot([&] { return summary_of(database_->sqlite(), "jobs"); });
 }
 
 std::map<Status, std::int64_t> Reader::job_counts() const {

@@ -33,7 +33,7 @@ const std::set<std::string> of_this_store{"job_id",        "equilibration_id", "
                                           "owner_started", "renewed"};
 
 // Columns of jobs that say how far the job is, and where it was worked on.
-constexpr std::array progress_columns{"tau",         "collisions",     "attempts", "error",
+constexpr std::array progress_columns{"tau_reached", "collisions",     "attempts", "error",
                                       "starts_over", "started",        "finished", "code_version",
                                       "host",        "physics_version"};
 
@@ -83,9 +83,10 @@ std::int64_t add_job(SQLite::Database& ours, SQLite::Database& theirs, std::int6
   insert.exec();
 
   const std::int64_t job_id = ours.getLastInsertRowid();
-  SQLite::Statement fresh(ours,
-                          "UPDATE jobs SET tau = 0, collisions = 0, attempts = 0, error = NULL, "
-                          "started = NULL, finished = NULL WHERE job_id = ?");
+  SQLite::Statement fresh(
+      ours,
+      "UPDATE jobs SET tau_reached = 0, collisions = 0, attempts = 0, error = NULL, "
+      "started = NULL, finished = NULL WHERE job_id = ?");
   fresh.bind(1, job_id);
   fresh.exec();
   return job_id;

@@ -212,7 +212,7 @@ int submit(const SubmitOptions& given) {
   take_back_from_the_dead(store);
   if (const auto exit_code = look_after_rounds(store, options)) return *exit_code;
   keep_predictions(store);
-  add_realizations(store, std::nullopt);
+  add_realizations(store, store.targets(), std::nullopt);
 
   const schema::Summary summary = store.summary();
   if (summary.claimable + summary.waiting == 0) {

@@ -148,7 +148,7 @@ CLI::App* add_export(CLI::App& app, ExportCommand& options) {
       ->type_name("NUMBER")
       ->required();
   command->footer(
-      examples(R"(  campaign query "SELECT job_id, kind, e, n, particles, seed, tau FROM jobs"
+      examples(R"(  campaign query "SELECT job_id, kind, e, n, particles, seed, tau_reached FROM jobs"
   campaign export 3 > job-3.xyz     open it in OVITO: particles, box, velocities
   campaign export 3 | gzip > job-3.xyz.gz
 

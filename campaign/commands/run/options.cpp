@@ -19,9 +19,13 @@ CLI::App* add_plan(CLI::App& app, PlanOptions& options) {
   auto* command = app.add_subcommand("plan", "Make jobs out of a grid of (e, n, N, seed)");
   command->add_option("GRID", options.grid, "The grid, a JSON file")->type_name("FILE")->required();
   command->add_flag("--dry-run", options.dry_run, "Show what would be added; write nothing");
+  command->add_flag("--replace", options.replace,
+                    "The grid takes the place of what is planned: jobs that it does not have go "
+                    "unless they were begun, and a smaller tau_max counts");
   command->footer(examples(R"(  campaign plan grid.json
   campaign plan grid.json --dry-run
   campaign plan grid.json --store /data/dense.db
+  campaign plan grid.json --replace --dry-run    what would go, end earlier and stay
 
 A grid, with its defaults from "sample_every" on:
   { "e": [0.80, 0.90], "n": 0.4, "N": 32000, "seeds": 2,
@@ -62,6 +66,13 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
       "by then");
   add_duration(command, "--budget", options.cpu_budget,
                "Spend at most this CPU time, all workers together");
+  add_where(command, options.where,
+            "Only jobs of which this condition holds, and what they start from");
+  command
+      ->add_option("--order", options.order,
+                   "Take jobs in this order, terms in SQL: \"seed, e DESC\"")
+      ->check(CLI::Validator(not_empty, ""))
+      ->type_name("SQL");
   command
       ->add_option("--log-json", options.log_json,
                    "Append what happens to this file, a line of JSON an event")
@@ -74,8 +85,15 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   campaign run --workers 4
   campaign run --max-time 1h30m     exit code 3 if work is left
   campaign run --budget 2h          of CPU time; targets not met by then: exit code 3
+  campaign run --where "e = 0.9 AND N < 10000"
+  campaign run --where "roughness.beta IS NULL" --order "seed, N DESC"
   campaign run 2> run.log &         plain lines of progress in run.log
   campaign run --log-json run.jsonl --on-finish 'mail -s "exit $CAMPAIGN_EXIT_CODE" me < /dev/null'
+
+--where and --order are SQL in the columns of the table jobs, with N for the number of particles and
+roughness.beta for the parameter of an effect. A condition chooses cooling jobs; equilibrations are run
+when a chosen job waits for them, and are chosen themselves if the condition names kind or job_id.
+Without --order the longest jobs come first, so that no worker is left alone with one at the end.
 
 The command of --on-finish finds CAMPAIGN_EXIT_CODE, CAMPAIGN_DONE, CAMPAIGN_FAILED and
 CAMPAIGN_PENDING (jobs of the whole store) and CAMPAIGN_STORE in its environment. The run's exit code
@@ -122,6 +140,8 @@ CLI::App* add_worker(CLI::App& app, WorkerCommand& options) {
   command->add_option("DESCRIPTOR", options.report_descriptor)->required();
   command->add_option("--until", options.until);
   command->add_option("--threads", options.threads)->check(CLI::Range(1, most_threads));
+  command->add_option("--where", options.where);
+  command->add_option("--order", options.order);
   return command;
 }
 

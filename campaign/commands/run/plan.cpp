@@ -17,12 +17,14 @@
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/base/text/text_table.hpp"
 #include "campaign/commands/json_output.hpp"
+#include "campaign/commands/revision_text.hpp"
 #include "campaign/commands/run/plan_outcome.hpp"
 #include "campaign/planning/expansion.hpp"
 #include "campaign/planning/forecast.hpp"
 #include "campaign/planning/preparation.hpp"
+#include "campaign/run/abandoned.hpp"
 #include "schema/grid/grid.hpp"
-#include "schema/store/store.hpp"
+#include "schema/store/revision.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -118,6 +120,7 @@ void print_targets(const std::vector<TargetProgress>& targets) {
 void print(const PlanOutcome& outcome) {
   print_jobs(outcome);
   print_boxes(outcome);
+  if (outcome.revision) say("{}", revision_text(*outcome.revision));
   for (const std::string& note : outcome.notes) say("Note: {}\n", note);
   print_targets(outcome.targets);
   say("{}Next: {}\n", outcome.dry_run ? "Nothing was written. " : "", outcome.next);
@@ -138,14 +141,22 @@ std::vector<TargetProgress> preview(const schema::Reader& store, const std::vect
 PlanOutcome plan_into_store(std::vector<Planned>& jobs, const std::vector<schema::Target>& targets,
                             const PlanOptions& options) {
   if (!options.dry_run) {
-    schema::Store store = schema::Store::create(options.store);
+    schema::Revised store(schema::Store::create(options.store));
     const std::vector<schema::JobRow> known = store.jobs();
     Forecast forecast(known);
     expect(jobs, forecast);
-    const std::vector<Outcome> outcomes = store.add(jobs);
+    std::optional<schema::Revision> revision;
+    if (options.replace) {
+      take_back_from_the_dead(store);
+      revision = store.replace(jobs, targets);
+    }
+    const std::vector<Outcome> outcomes = revision ? revision->outcomes : store.add(jobs);
     store.add(targets);
     keep_predictions(store);
-    PlanOutcome outcome = plan_outcome(jobs, outcomes, forecast, known, false);
+    // A longer plan is no news where it has just been made shorter.
+    PlanOutcome outcome =
+        plan_outcome(jobs, outcomes, forecast, revision ? store.jobs() : known, false);
+    outcome.revision = std::move(revision);
     outcome.targets = progress_of(store, targets);
     return outcome;
   }
@@ -155,6 +166,7 @@ PlanOutcome plan_into_store(std::vector<Planned>& jobs, const std::vector<schema
     Forecast forecast(known);
     expect(jobs, forecast);
     PlanOutcome outcome = plan_outcome(jobs, store.preview(jobs), forecast, known, true);
+    if (options.replace) outcome.revision = revision_of_replace(store, jobs, targets);
     outcome.targets = preview(store, jobs, targets);
     return outcome;
   }
@@ -172,8 +184,9 @@ int plan(const PlanOptions& options) {
   const schema::Grid grid = schema::read_grid(options.grid, machine_memory(), why_not_prepared);
   std::vector<Planned> jobs = expand(grid);
   PlanOutcome outcome = plan_into_store(jobs, targets_of(grid), options);
-  outcome.next = command_text(options.dry_run ? "plan " + shell_word(options.grid.string()) : "run",
-                              options.store);
+  const std::string again = fmt::format("plan {}{}", options.replace ? "--replace " : "",
+                                        shell_word(options.grid.string()));
+  outcome.next = command_text(options.dry_run ? again : "run", options.store);
   if (options.json)
     print_json(plan_json(outcome));
   else

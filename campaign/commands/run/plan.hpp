@@ -10,6 +10,7 @@ struct PlanOptions {
   std::filesystem::path store;
   bool dry_run = false;  // show what would happen, touch nothing
   bool json = false;     // print for programs
+  bool replace = false;  // what is planned and not in the grid goes
 };
 
 // Adds what is missing and prints what the campaign will cost; returns an ExitCode. Throws

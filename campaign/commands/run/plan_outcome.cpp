@@ -11,6 +11,7 @@
 
 #include "campaign/base/process/machine.hpp"
 #include "campaign/base/text/number_text.hpp"
+#include "campaign/commands/revision_text.hpp"
 #include "campaign/planning/advice.hpp"
 #include "campaign/report/overview_json.hpp"
 
@@ -79,6 +80,20 @@ void add_boxes(const std::vector<Planned>& jobs, PlanOutcome& found) {
   }
 }
 
+// Jobs that the store is still to run further than the plan asks.
+std::size_t planned_longer(const std::vector<Planned>& jobs,
+                           const std::vector<schema::JobRow>& known) {
+  std::map<std::string, double> open;
+  for (const schema::JobRow& row : known)
+    if (row.status == schema::Status::pending && row.job.kind == schema::Kind::cooling)
+      open.emplace(identity(row.job), row.tau_max);
+  if (open.empty()) return 0;
+  return static_cast<std::size_t>(std::ranges::count_if(jobs, [&](const Planned& planned) {
+    const auto found = open.find(identity(planned.job));
+    return found != open.end() && found->second > planned.tau_max;
+  }));
+}
+
 ordered_json group_json(const PlanGroup& group) {
   return {{"kind", name(group.job.kind)},
           {"d", group.job.d},
@@ -107,6 +122,11 @@ PlanOutcome plan_outcome(const std::vector<Planned>& jobs, const std::vector<Out
   found.memory_warning = memory_warning(found.memory_bytes);
   add_boxes(jobs, found);
   found.notes = near_twins(jobs, known);
+  if (const std::size_t longer = planned_longer(jobs, known))
+    found.notes.push_back(fmt::format(
+        "{} job{} already planned to a larger tau_max than this grid has, and will be run to it; "
+        "plan --replace lowers it.",
+        longer, longer == 1 ? " is" : "s are"));
   if (const std::size_t again = recomputed(jobs, known))
     found.notes.push_back(fmt::format(
         "{} of the new jobs are of gases that the store has with other observables. What a job "
@@ -139,6 +159,7 @@ ordered_json plan_json(const PlanOutcome& outcome) {
                                {"n", box.job.n},
                                {"particles", box.job.particles},
                                {"box", box_json(box.job)}});
+  if (outcome.revision) object["replaced"] = revision_json(*outcome.revision);
   for (const TargetProgress& target : outcome.targets)
     object["targets"].push_back(target_json(target));
   return object;

@@ -10,7 +10,7 @@
 #include "campaign/accuracy/targets.hpp"
 #include "campaign/planning/forecast.hpp"
 #include "campaign/results/box.hpp"
-#include "schema/store/store.hpp"
+#include "schema/store/revision.hpp"
 
 namespace haff::campaign {
 
@@ -41,10 +41,12 @@ struct PlanOutcome {
   std::vector<std::string> box_warnings;
   std::vector<std::string> notes;
   std::vector<TargetProgress> targets;  // what they will take beyond the jobs above
-  std::string next;                     // the command to type
+  // Of a grid that replaces the plan: what goes, ends earlier and stays.
+  std::optional<schema::Revision> revision;
+  std::string next;  // the command to type
 };
 
-// All but targets and next. `known`: the store's jobs before.
+// All but targets, revision and next. `known`: the store's jobs before.
 PlanOutcome plan_outcome(const std::vector<schema::Planned>& jobs,
                          const std::vector<schema::Outcome>& outcomes, Forecast& forecast,
                          const std::vector<schema::JobRow>& known, bool dry_run);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "campaign/accuracy/more_realizations.hpp"
@@ -19,6 +20,7 @@
 #include "campaign/base/text/command_text.hpp"
 #include "campaign/base/text/duration.hpp"
 #include "campaign/base/text/error_text.hpp"
+#include "campaign/commands/choosing.hpp"
 #include "campaign/commands/run/status.hpp"
 #include "campaign/run/event_log.hpp"
 #include "campaign/run/on_finish.hpp"
@@ -28,8 +30,17 @@
 namespace haff::campaign {
 namespace {
 
+// Those of gases of which some job is chosen.
+std::vector<schema::Target> chosen_targets(const schema::Selection& store) {
+  std::vector<schema::Target> targets = store.targets();
+  if (store.choice().is_everything()) return targets;
+  const auto series = store.series();
+  std::erase_if(targets, [&](const schema::Target& each) { return !series.contains(each.series); });
+  return targets;
+}
+
 // Round by round, until the targets are met or something ends it.
-RoundEnd run_rounds(schema::Store& store, const RunOptions& options, EventLog& log) {
+RoundEnd run_rounds(schema::Selection& store, const RunOptions& options, EventLog& log) {
   const auto start = std::chrono::steady_clock::now();
   for (;;) {
     const RoundEnd ended = run_round(store, options, start, log);
@@ -38,7 +49,8 @@ RoundEnd run_rounds(schema::Store& store, const RunOptions& options, EventLog& l
     if (ended.over_limit || ended.store_error) return ended;
     std::optional<double> affordable = options.cpu_budget;
     if (affordable) *affordable -= cpu_seconds_of_ended_children();
-    if (add_realizations(store, affordable) == 0) return ended;
+    if (store.choice().names_realizations()) return ended;
+    if (add_realizations(store, chosen_targets(store), affordable) == 0) return ended;
   }
 }
 
@@ -103,22 +115,37 @@ int rescue(schema::Store& store, const std::string& what) {
   return exit_failed;
 }
 
-int work_to_the_end(schema::Store& store, const RunOptions& options, EventLog& log) {
+// Pending jobs that this run has left alone, since they are not chosen.
+std::int64_t not_chosen(const schema::Selection& store) {
+  return store.job_counts()[schema::Status::pending] -
+         store.summary().jobs.at(schema::Status::pending);
+}
+
+void print_not_chosen(const schema::Selection& store) {
+  const std::int64_t count = not_chosen(store);
+  if (count > 0)
+    say("{} pending job{} not chosen by --where, and stay{} pending\n", count,
+        count == 1 ? " was" : "s were", count == 1 ? "s" : "");
+}
+
+int work_to_the_end(schema::Selection& store, const RunOptions& options, EventLog& log) {
   store.open_log();
   const RoundEnd ended = run_rounds(store, options, log);
   if (store.displaced()) return exit_failed;
-  const int exit_code = conclusion(store.summary(), progress_of(store, store.targets()), ended);
+  const int exit_code =
+      conclusion(store.summary(), progress_of(store, chosen_targets(store)), ended);
   if (options.json) {
-    print_outcome_json(store, exit_code);
+    print_outcome_json(store, exit_code, not_chosen(store));
   } else {
     print_limits(options, ended, exit_code);
     print_outcome(store);
+    print_not_chosen(store);
   }
   close_log(store);
   return exit_code;
 }
 
-int work_or_rescue(schema::Store& store, const RunOptions& options, EventLog& log) {
+int work_or_rescue(schema::Selection& store, const RunOptions& options, EventLog& log) {
   int exit_code = exit_failed;
   try {
     exit_code = work_to_the_end(store, options, log);
@@ -167,7 +194,9 @@ int run(const RunOptions& options) {
   log_start(options, log);
   int exit_code = exit_failed;
   try {
-    schema::Store store = schema::Store::open(options.store);
+    schema::Store whole = schema::Store::open(options.store);
+    const schema::Choice choice = choice_of(whole, options.where, options.order);
+    schema::Selection store(std::move(whole), choice);
     store.wait_for_locks_while(may_wait_for_locks);
     exit_code = work_or_rescue(store, options, log);
   } catch (const std::exception& error) {

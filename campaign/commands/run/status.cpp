@@ -190,8 +190,9 @@ void print_outcome(const Reader& store) {
   print_lines(findings_text(look(store)));
 }
 
-void print_outcome_json(const Reader& store, int exit_code) {
+void print_outcome_json(const Reader& store, int exit_code, std::int64_t not_chosen) {
   ordered_json outcome = overview_json(look(store));
+  outcome["not_chosen"] = not_chosen;
   outcome["exit_code"] = exit_code;
   print_data(indented_json(outcome));
 }

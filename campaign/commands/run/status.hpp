@@ -1,6 +1,7 @@
 // `campaign status`: where a campaign stands, and what to type next.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -20,7 +21,8 @@ int status(const StatusOptions& options);
 // What a run says at its end: the table of tau_c, failures, the next command.
 void print_outcome(const schema::Reader& store);
 
-// The same as JSON: all that status has, and the run's exit code.
-void print_outcome_json(const schema::Reader& store, int exit_code);
+// The same as JSON: all that status has, the run's exit code, and how many pending jobs it has left
+// alone since they were not chosen.
+void print_outcome_json(const schema::Reader& store, int exit_code, std::int64_t not_chosen);
 
 }  // namespace haff::campaign

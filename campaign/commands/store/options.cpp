@@ -1,4 +1,4 @@
-// The options of verify, retry, backup, upgrade.
+// The options of verify, retry, cancel, backup, upgrade.
 #include "campaign/commands/options.hpp"
 
 #include "campaign/commands/store/recompute.hpp"
@@ -33,6 +33,26 @@ CLI::App* add_retry(CLI::App& app, RetryCommand&) {
   auto* command = app.add_subcommand(
       "retry", "Reopen failed jobs and those whose checkpoint or rows are damaged");
   command->footer(examples("  campaign retry && campaign run"));
+  return command;
+}
+
+CLI::App* add_cancel(CLI::App& app, CancelOptions& options) {
+  auto* command =
+      app.add_subcommand("cancel", "Take jobs that are no longer wanted out of the store");
+  add_where(command, options.where, "Which jobs, a condition in SQL over the table jobs")
+      ->required();
+  command->add_flag("--delete", options.with_rows,
+                    "Remove done jobs, too, with all that they have stored, and make the file "
+                    "smaller");
+  command->add_flag("--dry-run", options.dry_run, "Show what would become of each; change nothing");
+  command->footer(examples(R"(  campaign cancel --where "e = 0.95 AND N > 100000" --dry-run
+  campaign cancel --where "status = 'failed'"
+  campaign cancel --where "n = 0.6" --delete
+
+Planned jobs go. Those that were begun end where they are stored, and the next run completes them
+there. Done ones stay unless --delete is given. Equilibrations go with the last job that starts from
+them, and so do targets of these gases. What a worker or a shard has is left alone and named, with exit
+code 1. In the condition, N is the number of particles and roughness.beta the parameter of an effect.)"));
   return command;
 }
 

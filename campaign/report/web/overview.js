@@ -55,7 +55,7 @@ function showJobs(data) {
     makeTable([{title: "job", number: true}, {title: "what"}, {title: "τ", number: true}, {title: ""},
       {title: "host"}, {title: "process", number: true}, {title: ""}],
       data.running.map((job) => [job.job_id, gasText(job),
-        `${job.tau.toFixed(1)} of ${numberText(job.tau_max)}`, makeMeter(job.tau / job.tau_max),
+        `${job.tau_reached.toFixed(1)} of ${numberText(job.tau_max)}`, makeMeter(job.tau_reached / job.tau_max),
         job.host, job.pid, job.abandoned ? "is gone; the next run takes the job back" : ""]),
       {tall: true, label: "Running jobs"})]);
 
@@ -94,7 +94,7 @@ function showTauC(data) {
   const series = data.series.filter((one) => one.kind === "cooling" && one.e !== null);
   const rows = series.map((one) => [...gasCells(one), Object.keys(one.effects).length ? JSON.stringify(one.effects) : "",
     `${one.realizations} of ${one.realizations_planned}`,
-    `${one.tau.toFixed(1)} of ${numberText(one.tau_max)}`,
+    `${one.tau_reached.toFixed(1)} of ${numberText(one.tau_max)}`,
     one.tau_c === null ? noValue : valueWithError(one.tau_c, barOf(one)) +
       (one.reached < one.realizations ? ` (${one.reached} of ${one.realizations})` : ""),
     one.published_tau_c === null ? noValue : numberText(one.published_tau_c)]);

@@ -22,11 +22,6 @@ const Vocabulary some_words{.columns = {"temperature"},
 
 }  // namespace
 
-TEST_CASE("vocabulary: names are words outside of quotes, numbers and functions are none") {
-  CHECK(names_in("sqrt(a2) + 1e-3*roughness.beta AND law = 'tc'") ==
-        std::vector<std::string>{"a2", "roughness.beta", "AND", "law"});
-}
-
 TEST_CASE("vocabulary: N is the number of particles, which SQLite would take for the density") {
   CHECK(translated("N = 8000 AND n = 0.4", some_words) == "particles = 8000 AND n = 0.4");
   CHECK(translated("roughness.beta > 0", some_words) == "\"roughness.beta\" > 0");

@@ -26,10 +26,10 @@ TEST_CASE("collapse: ends a job with its series, named, and fails nothing") {
   CHECK(number(folder,
                "SELECT count(*) FROM jobs WHERE error LIKE 'inelastic collapse of particles % at "
                "tau = %'") == 1);
-  CHECK(number(folder, "SELECT tau FROM jobs WHERE status = 'collapsed'") > 0);
+  CHECK(number(folder, "SELECT tau_reached FROM jobs WHERE status = 'collapsed'") > 0);
   // The series up to then, and only that.
   CHECK(number(folder,
-               "SELECT count(*) = floor(jobs.tau / 0.5) + 1 FROM samples JOIN jobs USING (job_id) "
+               "SELECT count(*) = floor(tau_reached / 0.5) + 1 FROM samples JOIN jobs USING (job_id) "
                "WHERE status = 'collapsed'") == 1);
   CHECK(number(folder, "SELECT count(*) FROM results") == 0);
   CHECK(number(folder,

@@ -20,7 +20,7 @@ void plan(const Folder& folder, const std::string& grid) {
 }
 
 void wait_for_cooling(const Folder& folder) {
-  while (number(folder, "SELECT max(tau) FROM jobs WHERE kind = 'cooling'") == 0) sleep_for(5ms);
+  while (number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") == 0) sleep_for(5ms);
 }
 
 }  // namespace

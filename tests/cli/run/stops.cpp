@@ -32,7 +32,7 @@ TEST_CASE("stops: one near a synchronization keeps what was computed, without a 
   CHECK(number(folder,
                "SELECT count(*) FROM checkpoints JOIN jobs USING (job_id) "
                "WHERE kind = 'cooling'") == 1);
-  CHECK(number(folder, "SELECT max(tau) FROM jobs WHERE kind = 'cooling'") > 0);
+  CHECK(number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") > 0);
 }
 
 TEST_CASE("stops: ten kills in a row without progress are excused, three more fail the job") {

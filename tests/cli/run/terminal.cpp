@@ -172,7 +172,7 @@ TEST_CASE("terminal: one that is gone ends a run in order, and the next run goes
   const Folder folder;
   plan(folder, R"({"e": 0.9, "n": 0.4, "N": 1000, "seeds": 2, "tau_max": 2000})");
   OnTerminal run(folder, {"run", "--workers", "2"}, 24);
-  while (number(folder, "SELECT max(tau) FROM jobs WHERE kind = 'cooling'") == 0)
+  while (number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") == 0)
     run.read_for(20ms);
   run.hang_up();
   CHECK(run.exit_code() == 128 + SIGHUP);

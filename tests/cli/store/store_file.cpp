@@ -24,7 +24,7 @@ void plan(const Folder& folder, const char* text) {
 }
 
 void wait_for_work(const Folder& folder) {
-  while (number(folder, "SELECT max(tau) FROM jobs WHERE kind = 'cooling'") == 0) sleep_for(5ms);
+  while (number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") == 0) sleep_for(5ms);
 }
 
 // What becomes of a run from under which the store is taken by this command.

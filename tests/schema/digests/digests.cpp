@@ -171,7 +171,7 @@ TEST_CASE("digests: a job whose row has changed is not worked on, and a flipped 
 TEST_CASE("digests: what was changed without a look is an error of this program") {
   Working working;
   Database database(working.path, Access::write);
-  CHECK_THROWS_AS(database.transaction([&] { database.sqlite().exec("UPDATE jobs SET tau = 1"); }),
+  CHECK_THROWS_AS(database.transaction([&] { database.sqlite().exec("UPDATE jobs SET tau_reached = 1"); }),
                   std::logic_error);
 }
 
