@@ -2,12 +2,13 @@
 //
 // xoshiro256++ of D. Blackman and S. Vigna, ACM TOMS 47, 36 (2021), whose state is filled by
 // splitmix64, the generator that the authors recommend for it. A realization has a stream of its
-// own. Only integers, + and x are used: the distributions of the C++ library differ between
-// libraries, and logarithms in their last bit.
+// own. Only integers, + - x / and square roots are used: the distributions of the C++ library
+// differ between libraries, and logarithms in their last bit.
 #pragma once
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 namespace haff::analysis {
@@ -34,6 +35,32 @@ class Random {
 
   // Uniform in [0, 1), a multiple of 2^-53.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+
+  // Exponential with mean 1. J. von Neumann, Nat. Bur. Stand. Appl. Math. Ser. 12, 36 (1951): of
+  // falling runs of uniform numbers, those of odd length begin with x with density exp(-x).
+  double exponential() {
+    for (double whole = 0;; ++whole) {
+      const double first = uniform();
+      double last = first;
+      bool odd = true;
+      for (double next = uniform(); next < last; next = uniform()) {
+        last = next;
+        odd = !odd;
+      }
+      if (odd) return whole + first;
+    }
+  }
+
+  // Two independent standard normal numbers.
+  std::array<double, 2> normal() {
+    for (;;) {
+      const double x = 2 * uniform() - 1, y = 2 * uniform() - 1;
+      const double square = x * x + y * y;
+      if (square >= 1 || square == 0) continue;
+      const double scale = std::sqrt(2 * exponential() / square);
+      return {x * scale, y * scale};
+    }
+  }
 
   // The number of ones among 64 fair bits, less its mean, over its standard deviation 4: mean 0,
   // variance 1, excess kurtosis -1/32. The sum of many of them is Gaussian.

@@ -1,6 +1,6 @@
 // The direct simulation's results for the usual e, kept in enskog_boltzmann.csv, which make_table
-// wrote and which is part of the program: 64 realizations of 10^5 particles each, sampled up to
-// tau = 15, and the mean over 15 <= tau <= 35 as the state that no longer changes.
+// wrote and which is part of the program: 128 realizations of 10^5 particles each, sampled up to
+// tau = 14, and the mean over 15 <= tau <= 35 of 64 of them as the state that no longer changes.
 //
 //   const auto a2 = tabulated("a2", 0.85, 3);
 //   if (a2) draw(a2->at(tau).value, a2->at(tau).error);

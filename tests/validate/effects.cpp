@@ -74,7 +74,7 @@ double exponent(const std::vector<double>& x, const std::vector<double>& y) {
 
 // The argument of R. Kawahara and H. Nakanishi, cond-mat/0309130, in 3-d: without correlations a
 // gas stays where the Enskog-Boltzmann equation comes to rest, by direct simulation at a_2 =
-// -0.0169
+// -0.0170
 // (-A/B = -0.0153 is first order in a_2). Four standard errors, by blocks, of the mean over tau. At
 // n = 0.4 a shuffle leaves pairs near contact, which collide again without the weight v_n that
 // collisions choose pairs by: a_2 falls short and less is lost at a collision. With positions
