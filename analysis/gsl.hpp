@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What every use of GSL in this room shares: errors become exceptions instead of aborting the
 // program, resources free themselves, and functions of one variable can be lambdas.
 // For the .cpp files of this room only.

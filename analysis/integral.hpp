@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A definite integral of a smooth function by GSL's adaptive quadrature (QAG with 21 points).
 // For the .cpp files of this room only.
 #pragma once

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # Results are promised bit for bit. Flags that let the compiler compute something else than what is
 # written are refused here, by name; support/arithmetic.hpp refuses those that come another way.
 set(flags_that_change_results

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # find_package(haff) in another project: the library haff::engine.
 include(CMakeFindDependencyMacro)
 find_dependency(hwy)

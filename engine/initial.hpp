@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Initial states: spheres that do not overlap, Gaussian velocities, zero total momentum.
 #pragma once
 

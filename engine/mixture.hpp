@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A binary mixture: spheres, or disks, of two diameters and masses.
 //
 // Species 1 is the larger one and defines the units of length and mass; species 2 has the diameter

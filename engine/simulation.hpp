@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The simulation of one gas: it starts from a state, runs, can be observed, and returns its state.
 //
 //   Simulation gas({.restitution = 0.8}, state);

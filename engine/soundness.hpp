@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Whether a state can be that of a gas of hard spheres: finite, inside its box, without overlaps.
 // And how large the invariants of a run may be.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The state of a gas at a synchronization: every particle at the same instant.
 //
 // A checkpoint holds a state, and a simulation starts from one and returns one. Units (m = sigma =

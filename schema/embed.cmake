@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # Writes a C++ source that holds the text of each of FILES under its name, in order.
 file(WRITE ${OUTPUT} "// Made by schema/embed.cmake.\n#include \"schema/embedded.hpp\"\n\n")
 file(APPEND ${OUTPUT} "namespace haff::schema {\n\nstd::span<const Embedded> embedded() {\n")

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The SQL and JSON files of schema/, as text within the program (embed.cmake).
 #pragma once
 

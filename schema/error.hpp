@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What can go wrong with a store. Each message names the file and what is wrong, and says what a
 // person can do about it. Which command of a program would help, only the program knows: it is told
 // the kind of remedy.

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # Which folder may use which. The rooms engine, analysis and schema know only themselves; campaign
 # uses them all, and the folders of campaign and schema form graphs
 # without a circle, drawn in their README.md.

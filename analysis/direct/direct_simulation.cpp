@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "analysis/direct/direct_simulation.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The Enskog-Boltzmann equation of the homogeneous gas, solved by direct simulation: particles
 // without positions, whose velocities collide pair by pair at random.
 //

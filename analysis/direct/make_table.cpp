@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The program that made enskog_boltzmann.csv, in some ten minutes of CPU time:
 //   cmake --build --preset release --target make_table
 //   build/release/analysis/make_table > analysis/direct/enskog_boltzmann.csv

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Random numbers of the direct simulation: the same seed gives the same bits on every machine.
 //
 // xoshiro256++ of D. Blackman and S. Vigna, ACM TOMS 47, 36 (2021), whose state is filled by

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Laws of restitution as the direct simulation uses them: e as a function of the normal relative
 // speed v [sqrt(E(0)/m)] and of the time since either partner's previous collision
 // [sigma sqrt(m/E(0))].

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The direct simulation's results for the usual e, kept in enskog_boltzmann.csv, which make_table
 // wrote and which is part of the program: 128 realizations of 10^5 particles each, sampled up to
 // tau = 14, and the mean over 15 <= tau <= 35 of 64 of them as the state that no longer changes.

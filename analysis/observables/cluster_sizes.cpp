@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "analysis/observables/cluster_sizes.hpp"
 
 #include <bit>

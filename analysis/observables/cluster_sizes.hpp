@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Clusters of particles, by their distances alone: two belong to one cluster if they are closer
 // than a bond, or both belong to a cluster with a third one.
 //

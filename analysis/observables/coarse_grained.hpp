@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The gas seen as a fluid: density, flow velocity and temperature in cells.
 //
 //   n(r) = N_r / cell volume,   u(r) = < v >,   T_L(r) = (m/d) < (v - u)^2 > N_r / (N_r - 1)

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Self-diffusion: how far particles have come since a waiting time, and how much of their
 // velocities is left.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The velocity distribution rho(c), c = v / v_0 with v_0^2 = 2 T / m of that instant, normalized so
 // that int d^dc rho = pi^(d/2): a Gaussian gas has exp(-c^2), and the density of speeds is
 // Omega_d c^(d-1) rho / pi^(d/2). R. Kawahara and H. Nakanishi, cond-mat/0309130.

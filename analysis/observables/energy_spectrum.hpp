@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The kinetic energy of the flow by wave number: transverse and longitudinal modes, and vorticity.
 //
 //   p(k)      sum_i m_i v_i exp(-i k r_i), for k > 0;  p_par = (p . khat) khat,  p_perp = p - p_par

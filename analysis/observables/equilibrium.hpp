@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Whether a gas of few particles has the velocities of elastic equilibrium.
 //
 //   D = d (N-1)         dimensions in which the velocities of N particles of given energy and zero

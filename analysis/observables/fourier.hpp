@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Discrete Fourier transform of a real field on a periodic mesh, by FFTW. For the .cpp files of
 // this room only.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A periodic box divided into equal cubic cells: what particles in space are counted on.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "analysis/observables/moments.hpp"
 
 #include <gsl/gsl_sf_gamma.h>

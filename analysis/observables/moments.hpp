@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Moments of one velocity array: granular temperature and Laguerre (Sonine) coefficients.
 //
 //   T    = (m/d) <v^2>

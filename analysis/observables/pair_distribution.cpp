@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "analysis/observables/pair_distribution.hpp"
 
 #include <cmath>

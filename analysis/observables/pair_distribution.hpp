@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The pair distribution g(r), and its value at contact.
 //
 //   g(r)    pairs at a distance r, in units of the pairs that particles anywhere in the box would

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Every pair of particles that is closer than a given distance, by linked cells. For the .cpp files
 // of this room only.
 #pragma once

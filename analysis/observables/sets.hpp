@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Sets that grow together: cells, or particles, of one cluster. For the .cpp files of this room
 // only.
 #pragma once

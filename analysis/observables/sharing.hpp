@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Particles shared out among the nearest points of a mesh, "cloud in cell", and what that does to a
 // mode: Y. P. Jing, Astrophys. J. 620, 559 (2005), eqs. 17 to 21 with p = 2. For the .cpp files of
 // this room only.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The temperatures of the two species of a mixture, T_i = (m_i/d) <v^2> over species i.
 #pragma once
 

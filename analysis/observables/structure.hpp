@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How the particles lie in space: structure factor, and the largest dense region.
 //
 //   S(k) = |sum_i exp(-i k r_i)|^2 / N

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The tail of the velocity distribution rho(c), c = v/v_0, beyond c = 3, where bins of equal width
 // hold too few particles.
 //

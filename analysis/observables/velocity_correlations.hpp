@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Spatial correlations of the velocities as measured in one state (correlations.hpp has the
 // theory):
 //

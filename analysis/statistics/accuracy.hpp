@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a mean of few independent values is worth, and how many a wanted error takes.
 //
 //   interval of the mean:  mean +- t s / sqrt(R),  t the two-sided quantile of Student's

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Straight lines between the points of a curve.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The late stage: once clusters have formed, T falls roughly as a power of tau (published: tau^-3
 // ... tau^-4, strongly dependent on the sample; R. Kawahara and H. Nakanishi, cond-mat/0309130).
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Means and their standard errors: over independent realizations, and over one correlated series.
 //
 //   standard error of N independent values: sqrt(sum (x - mean)^2 / (N (N - 1)))

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How a gas cools: Haff's law, the measured decay rate, the end of the homogeneous stage.
 //
 //   2 gamma_0     = (1 - e^2) / d                    decay rate of T on the clock tau

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Spatial correlations of the velocity field in the cooling gas, from linear fluctuating
 // hydrodynamics.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "analysis/theory/energy_equation.hpp"
 
 #include <gsl/gsl_blas.h>

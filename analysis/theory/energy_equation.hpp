@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Energy decay with velocity correlations, from Haff's law to the end of the homogeneous stage:
 //
 //   dE/dtau = -2 gamma_0 f (E - (m/2) Tr G^+(0, tau)),   E(0) = 1

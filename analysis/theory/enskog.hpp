@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Enskog's transport theory of elastic hard spheres and disks, and the lengths that it gives to
 // the velocity correlations of the cooling gas.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The cooling gas without correlations: Enskog-Boltzmann theory, to first order in a_2.
 //
 //   da_2/dtau = A + B a_2

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The gas a theory speaks of: restitution, density, dimension. Units: m = sigma = 1.
 #pragma once
 

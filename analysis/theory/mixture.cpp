@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "analysis/theory/mixture.hpp"
 
 #include <gsl/gsl_roots.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The binary mixture of spheres or disks without correlations, cooling or heated: the ratio of the
 // species' temperatures.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Linear stability of the homogeneously cooling gas: growth rates of plane waves of the rescaled
 // fields (delta n / n, u_par / v_0, delta T / T) on the clock tau, and of the transverse velocity.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The cooling gas of rough spheres or disks without correlations: temperatures of translation and
 // rotation.
 //

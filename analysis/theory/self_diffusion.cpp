@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "analysis/theory/self_diffusion.hpp"
 
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Self-diffusion of elastic hard spheres and disks in Enskog's theory.
 //
 //   nu_D        rate at which a particle loses its velocity: (2/d) omega_0, exact as t -> 0, as a

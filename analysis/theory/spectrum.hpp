@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The energy spectrum of the flow, E(k) of observables/energy_spectrum.hpp: in equilibrium, and in
 // the cooling gas by fluctuating hydrodynamics.
 //

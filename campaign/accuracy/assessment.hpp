@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How accurate a store's results are, where the errors come from, and what less of them would cost.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign cost`: what accuracy costs in time, from what the store holds.
 //
 // For each quantity: its error beside the CPU seconds spent, the part of chance (realizations, N)

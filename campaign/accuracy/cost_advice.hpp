@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The cheapest way to a smaller error of each quantity of each gas.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What `campaign cost` knows, row by row: cost.csv, and the same as JSON.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What accuracy costs, for people: tables, and what is missing to know more.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // An error that is wanted of a quantity, as `campaign cost --target` names it.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Differences between gases that started from the same states, seed by seed: those of different e,
 // or with and without an effect that equilibrium does not know. What chance does to both alike is
 // not in the error of such a difference, which is therefore often the smaller one, at no cost.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The seeds that bring targets nearer.
 #pragma once
 

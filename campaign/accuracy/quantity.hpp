@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What is asked of a cooling gas with an error: one number from each realization.
 #pragma once
 

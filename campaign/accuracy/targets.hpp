@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Targets: how far the standard errors asked for are.
 #pragma once
 

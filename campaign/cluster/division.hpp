@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How the pending jobs of a store are divided among shards of about equal work.
 //
 // The longest job goes first, each to the shard that then has the least to do (R. L. Graham, SIAM

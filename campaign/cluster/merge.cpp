@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "campaign/cluster/merge.hpp"
 
 #include <fmt/format.h>

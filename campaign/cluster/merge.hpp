@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign merge` and `campaign recall`: what shards have computed comes home.
 //
 // Where a job is at each moment: lent, it is in its shard alone, and the store that lent it keeps

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What is said to Slurm, and what it answers.
 //
 // A round of `campaign submit` is an array of tasks, one for each shard, and a job that begins when

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign split`: the pending jobs of a store, lent to shards that can be run on other machines.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Rounds of `campaign submit`, from sbatch to the day when their shards are home.
 //
 // Each step leaves a record before it does what cannot be undone, so that whatever is cut off, a

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Another program: started, fed with nothing, its output read.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign task`: one shard, worked on by one task of a batch system.
 //
 // The shard in the user's folder may lie on a network file system, where SQLite's locks and shared

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What --where and --order of a command choose.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The program `campaign`. Results go to stdout; progress and logs to stderr.
 #include <fmt/format.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The options of each command, and what several of them share.
 #pragma once
 

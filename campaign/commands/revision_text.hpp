@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What became, or would become, of jobs that are no longer wanted: for people and for programs.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // From what realizations have to the curves of gases: means or paired differences, with errors.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a store has to be drawn: `campaign plot --list`.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How columns, profiles, quantities and parameters are written on axes and in legends: gnuplot's
 // enhanced text.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the finished runs of a store have of something, realization by realization: what is averaged
 // into a curve, or subtracted seed by seed before.
 #pragma once

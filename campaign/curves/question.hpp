@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A question about a store that a plot answers: this against that, a curve for each such gas.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a curve is of: a gas with its parameters by name, as a user asks for them.
 //
 //   d, e, n, N, equilibrate, sample_every     as in a grid

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The theory curves that the program knows, by name: what they are functions of, which columns they
 // have, and how they are computed. All of it is in analysis/; this is the list.
 #pragma once

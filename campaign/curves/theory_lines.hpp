@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The theory beside what is drawn of a gas: the curves of `campaign theory`, brought to the points
 // and the units of a plot.
 #pragma once

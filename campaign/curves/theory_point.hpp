@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The gas that a theory curve is asked of, with the effects of a grid or a job.
 #pragma once
 

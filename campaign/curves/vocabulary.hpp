@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The words that a question about a store may use, and how its SQL is made of them.
 //
 // A user writes a2, roughness.beta, N or tau; SQL has columns of samples, values within the JSON of

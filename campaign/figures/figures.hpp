@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign figures`: what a store has, as pictures and one page.
 //
 // The paper's figures where the store has its gases, figure-01 ..., beside what is published; and

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figures of any store: the questions that one asks first of any gas, each gas a curve.
 #pragma once
 

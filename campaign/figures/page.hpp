@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The page that shows all figures with their captions, the paper's beside what is published and how
 // far theory and paper agree: one HTML file next to the pictures.
 #pragma once

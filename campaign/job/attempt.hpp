@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // One attempt at a job: a claim on it, a gas, the samples not yet committed.
 //
 // cooling.cpp and equilibration.cpp say what happens in which order; how it happens is here. The

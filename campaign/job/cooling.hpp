@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A cooling job: an equilibrated gas loses energy until tau_max.
 #pragma once
 

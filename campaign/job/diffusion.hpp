@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The observables msd and vacf: displacements and velocities compared with those of waiting times.
 //
 // The engine keeps particles in the box. To follow one through its faces, the gas is looked at so

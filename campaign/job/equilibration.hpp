@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // An equilibration: an elastic gas collides until it has forgotten its lattice.
 //
 // It ends at the first synchronization at or after tau = equilibrate at which a_2, a_3 and a_4 are

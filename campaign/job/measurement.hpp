@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // One row of samples: what a gas shows now, and what it did since the row before.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A finished job once more, from its parameters and the state it starts from. The same job gives
 // the same bits: what comes out differs from what is stored only if one of the two was disturbed.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a worker tells its coordinator: one line of JSON a report, through a pipe.
 //
 // Progress goes this way and not through the store, which hears of it every few seconds only. A

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Where on the tau axis a cooling job stops: to sample, and to store its state.
 //
 // Samples fall on tau = k sample_every. The engine synchronizes at multiples of its period, and

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The gases of the paper, R. Kawahara and H. Nakanishi, cond-mat/0309130.
 #pragma once
 

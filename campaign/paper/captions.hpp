@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What captions say of measured curves: where they come from, and what their errors are.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What figures of the decay rate gamma(tau)/gamma_0 have in common: how samples are averaged, and
 // the energy equation beside them.
 #pragma once

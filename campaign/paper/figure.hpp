@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The paper's figures: each a plot made of averages.
 //
 // To add a figure: write figure_NN.cpp with its function, and its line in the table of

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The paper's figures by their numbers: R. Kawahara and H. Nakanishi, cond-mat/0309130, and some
 // that are not drawn there but argued with.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Means over intervals of tau, for what is noise in a single sample: each point's error is that of
 // the realizations' means over the interval, so that it knows how neighbouring samples are
 // correlated.

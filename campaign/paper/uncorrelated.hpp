@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a gas without velocity correlations does, as curves: the Enskog-Boltzmann equation itself,
 // by direct simulation (analysis/direct), and to first order in a_2, as the paper has it. The
 // latter falls 6 to 12 % short.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a user should know of a plan beside its price: jobs that differ from those of the store by
 // rounding, or that will compute again what the store has.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a job costs on this machine, part by part: a short trial of it.
 #pragma once
 

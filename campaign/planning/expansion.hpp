@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // From a grid to jobs: the product of its lists, each job once, with the equilibrations they need.
 #pragma once
 

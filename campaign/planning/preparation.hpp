@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Whether the engine can prepare a gas: on a lattice, or by growth.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A plot: curves in panels, written as a table (CSV) and as a script for gnuplot.
 //
 // The table holds every point; the picture thins symbols so that they can be told apart.

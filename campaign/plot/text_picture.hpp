@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A plot as text, for a terminal: curves in dots of Braille, eight to a character (Unicode 28xx).
 #pragma once
 

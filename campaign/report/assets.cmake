@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # The page's parts become part of the program: its own files (web/), and two libraries from npm, of
 # the versions and with the checksums of web/package-lock.json: uPlot, which draws curves, and sql.js,
 # which is SQLite for the browser. They are fetched when CMake configures. Where that fails the build

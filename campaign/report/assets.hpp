@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The parts of the page, as files within the program: its own HTML, CSS and JavaScript (web/), and
 // the libraries that the build fetched from npm (assets.cmake).
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Bytes as text, RFC 4648: how a page of text carries a file.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Why a job is where it is: what it waits for, what was tried, what happens next.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How many processors a campaign kept busy, over time.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // One look at a store: where the campaign stands, and what to type next. `campaign status` prints
 // it, the page of `campaign report` shows it.
 #pragma once

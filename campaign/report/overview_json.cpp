@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "campaign/report/overview_json.hpp"
 
 #include <map>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Where a campaign stands, as JSON: what `campaign status --json` prints. Its keys are described in
 // campaign/README.md.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The page of `campaign report`: one HTML file that needs nothing else, neither a network nor a
 // program beside the browser.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The page of `campaign report`, served to browsers on this machine while a run is on.
 #pragma once
 

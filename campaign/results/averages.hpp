@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Averages over realizations, as the figures need them: the store's view mean_series in memory,
 // with the realizations it averages, for smooth spheres with constant restitution in three
 // dimensions, and for the same with their velocities shuffled.

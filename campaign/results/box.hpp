@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Whether a box can hold what a cooling gas grows: vortices and clusters, by linear theory.
 //
 // The homogeneously cooling gas is unstable against waves that are long enough (analysis/theory/

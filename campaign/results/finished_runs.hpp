@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Runs that are done, with what they cost: what accuracy and its price are judged from.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What is fitted to each realization by itself and then averaged: the spread over realizations is
 // an honest error, that of one fit to correlated samples is not. A realization that a fit cannot
 // take is left out: the estimate's count says how many there were.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Averages over realizations that were not all computed with the same bits.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What has been published of the cooling gas, for comparison.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Series: cooling jobs that differ in nothing but their seed, with what they have given so far.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Jobs whose owner is gone.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The coordinator of a run: it starts workers, listens to them, replaces those that die and takes
 // back the jobs of the dead. The workers choose and do the jobs by themselves.
 #pragma once

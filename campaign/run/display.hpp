@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a run shows of itself on stderr: a bar for each worker where stderr is a terminal, a plain
 // line from time to time where it is a file or a pipe. Log lines go through here too, so that
 // they and the bars do not write over each other. Nothing here throws when the terminal is gone:

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What happens in a run, for programs: a line of JSON an event, appended to a file
 // (`run --log-json FILE`). The events are described in campaign/README.md.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // One host at a time for a store on a network file system.
 //
 // SQLite's write-ahead log needs memory that all users share, which hosts do not have, and the

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How much of the work of a run is done, and when the rest will be.
 //
 // Its jobs, all of the store or those that were chosen, are weighed by the CPU time expected for

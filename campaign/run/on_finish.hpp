@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The command that a run starts at its end (`run --on-finish COMMAND`): a message, a copy, a plot.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What tells a process from every other, and whether it still lives.
 //
 // A process id alone is not enough: ids are used again, machines restart, containers number

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Whether a run still has something to do, or to wait for.
 #pragma once
 

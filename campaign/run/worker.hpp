@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A worker: a process that takes one job after another until none is left.
 #pragma once
 

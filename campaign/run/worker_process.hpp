@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A worker as its coordinator sees it: a child process and the pipe it reports through.
 //
 // It is this same program, started again (fork and exec) rather than forked only: a SQLite

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A checkpoint: the state of a gas as bytes, and back.
 //
 // Layout, little-endian:

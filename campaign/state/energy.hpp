@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The energy of a gas, in its state and in its samples: whether one can be the other's.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // From a checkpoint in the store to a state the engine may go on from.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What actions are made from. The actions are listed in actions.hpp.
 #pragma once
 

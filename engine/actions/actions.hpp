@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Actions: effects that change velocities between collisions, at collision numbers of their own.
 //
 // Each action is a class in a file of its own:

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Velocity permutation: the velocities are permuted among the particles at random.
 //
 // This destroys the spatial correlations of the velocities and keeps their distribution. It tests

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A gas driven by white noise: the noise replaces the energy lost in collisions, and the gas
 // reaches a steady state.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // When two spheres touch.
 //
 // States that rounding has made slightly invalid are handled as in M. N. Bannerman, S. Strobl,

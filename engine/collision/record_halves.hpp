@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A particle's record as two halves in vector registers: (position, time) and (velocity, id and
 // changes).
 //

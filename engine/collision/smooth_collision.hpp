@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What happens when two smooth particles touch.
 //
 // Model of R. Kawahara and H. Nakanishi, cond-mat/0309130: equal spheres, sigma = m = 1.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // PairGeometry of a binary mixture (mixture.hpp): two of them touch at a distance
 // sigma_ab = (sigma_a + sigma_b)/2. With equal species every bit is as of HardSpheres.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Disks with SIMD. Compiled once for each SIMD target, like the spheres in spheres_variant.cpp.
 #include "engine/loop/engine_variant.hpp"
 

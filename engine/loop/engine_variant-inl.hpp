@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // An engine variant, made from a search and a physics. Compiled once for each SIMD target, like the
 // loop that it runs.
 #if defined(HAFF_ENGINE_VARIANT_INL) == defined(HWY_TARGET_TOGGLE)

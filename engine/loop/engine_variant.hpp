@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What is chosen once per simulation: how to search, and what a collision does. Each combination is
 // compiled as an event loop of its own; this is their common interface.
 #pragma once

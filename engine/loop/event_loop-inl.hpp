@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The event loop: the whole simulation between two synchronizations.
 //
 // Each particle has one event: it touches its partner or leaves its cell, whichever comes first.

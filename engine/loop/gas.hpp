@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Everything that a simulation holds: the particles, their cells, their next events, and the clock.
 // The event loop (event_loop-inl.hpp) moves it.
 #pragma once

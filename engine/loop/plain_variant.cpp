@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The variants without SIMD: compiled once rather than once for each target, and for all
 // restitution models together, since speed does not matter here.
 #include <hwy/highway.h>

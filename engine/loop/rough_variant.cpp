@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Rough spheres and disks. They touch when smooth ones would, so the SIMD search serves them, too:
 // compiled once for each target. Rough particles of two species use the plain search.
 #undef HWY_TARGET_INCLUDE

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Smooth equal spheres with SIMD, the base case. Compiled once for each SIMD target; the best one
 // that the processor has is chosen at run time.
 #include "engine/loop/engine_variant.hpp"

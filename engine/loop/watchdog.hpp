@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Three counters that end a simulation which makes no progress.
 //
 // Inelastic collapse (S. McNamara and W. R. Young, Phys. Fluids A 4, 496 (1992)): infinitely many

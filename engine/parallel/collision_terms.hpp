@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What collisions add to sums, to be added up in the order of time after a window, as one thread
 // does it: the sums then have the same bits.
 #pragma once

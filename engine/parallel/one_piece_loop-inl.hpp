@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A stretch of time that one thread works off alone, in the order of all events: a window that had
 // to be undone, and the last few hundred events before a run stops.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The event loop of several threads: the same events, and the same bits, as that of one.
 //
 // Time is cut into windows, in each of which one event in a few hundred happens to a particle. In a

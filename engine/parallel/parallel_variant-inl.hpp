@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // An engine variant that runs on several threads.
 //
 // Compiled once for each SIMD target, like the loop that it runs.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The variants that run on several threads. Compiled once for each SIMD target.
 #include "engine/loop/engine_variant.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A thread's share of a gas: the events of the particles in its slab, and what it has done within
 // the present window.
 #pragma once

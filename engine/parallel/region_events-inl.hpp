@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What an event does, to the particles and to those that come after it: as in the event loop of one
 // thread (event_loop-inl.hpp), but every loop decides for itself what it notes on the way and where
 // the next event of a particle is kept.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The first phase of a window: every thread works off the events inside its slab, in their order.
 //
 // An event that needs something outside of the slab is deferred to the zone around that border, and

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How the box is divided among threads: slabs of whole layers of bricks, and zones around the
 // borders between them.
 //

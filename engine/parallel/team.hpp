@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A team of threads that work on the parts of one job together, again and again.
 //
 // A window of the parallel event loop takes a few hundred microseconds, so the threads wait for the

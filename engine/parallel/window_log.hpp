@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The records and events before a thread changed them within a window, to undo it.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The events of one window that a thread takes over at once: those that wait at a border, or all of
 // them. Few more are added on the way, because few of the events that follow come in the same
 // window.

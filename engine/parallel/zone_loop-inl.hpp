@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The second phase of a window: every thread works off the events that were deferred to the zone
 // around the border below its slab.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The periodic box: a cube of side L; for disks (d = 2) a square.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The position of a trajectory in time and collisions, and what it has counted so far.
 #pragma once
 

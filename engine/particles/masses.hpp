@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The masses of particles, for sums over them. A policy, so that sums over equal spheres need no
 // multiplication.
 #pragma once

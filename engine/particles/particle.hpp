@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // One particle, one cache line.
 //
 // A record changes only when its particle collides or when the gas is synchronized. Between these

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The order of the particles in memory: along a space-filling curve, so that neighbours in space
 // are neighbours in memory.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Synchronization: brings all particles to one time, and puts back everything that grows.
 //
 // It happens at fixed collision numbers, whether or not the state is stored, so an interrupted run

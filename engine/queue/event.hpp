@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A particle's next event: it touches its partner or leaves its cell, whichever comes first.
 #pragma once
 

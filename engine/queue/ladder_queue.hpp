@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Holds every particle's next event and finds the first of them.
 //
 // A ladder queue: the time since the last synchronization is cut into windows, and a window into

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "engine/restitution/any_restitution_model.hpp"
 
 #include <utility>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Constant restitution: the same e at every collision.
 #pragma once
 

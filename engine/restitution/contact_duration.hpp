@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The TC model of S. Luding and S. McNamara, Granular Matter 1, 113 (1998), cond-mat/9810009: a
 // real contact lasts for a while, so a sphere that touched another one less than t_c ago is still
 // deformed.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A threshold of speed: slow collisions are elastic, all others have the restitution coefficient e.
 //
 // The simplest cure for inelastic collapse: the relative speeds in a collapsing group

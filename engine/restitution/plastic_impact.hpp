@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Plastic spheres, such as metals: they yield at the contact, and more so in faster collisions.
 //
 // K. L. Johnson, Contact Mechanics (Cambridge, 1985), section 11.5: in fully plastic impacts e

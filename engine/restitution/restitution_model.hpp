@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What restitution models are made from. The models are listed in restitution_models.hpp.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Restitution models: the restitution coefficient e as a function of the collision.
 //
 // Each model is a class in a file of its own:

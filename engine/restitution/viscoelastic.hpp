@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Viscoelastic spheres: the faster a collision, the less elastic it is.
 //
 // R. Ramirez, T. Poeschel, N. V. Brilliantov, T. Schwager, PRE 60, 4465 (1999), eq. (22): with the

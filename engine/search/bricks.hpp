@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Which particles are near: linked cells of at least one diameter, eight of them in one cache line.
 //
 // A brick is 2 x 2 x 2 cells. Its particles are in the 16 slots of one 64-byte line, filled from

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Which particle does a particle touch first? The plain search, one candidate after the other;
 // simd_search-inl.hpp is the fast one.
 #pragma once

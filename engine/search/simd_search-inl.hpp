@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Which particle does a particle touch first? All candidates at once, without branches.
 //
 // The slots of a neighbourhood are filtered and compressed to a list of some 13 candidates. Their

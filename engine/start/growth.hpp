@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Grows spheres into place where no lattice fits.
 //
 // B. D. Lubachevsky and F. H. Stillinger, J. Stat. Phys. 60, 561 (1990): spheres that

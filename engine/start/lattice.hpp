@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Lattices of spheres and disks: where the particles of a new gas are, if the lattice fits.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Conditions and choices without a branch.
 //
 // Which of two events is earlier, or which list an event goes to, is as good as random: a branch on

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Vectors on huge pages. The engine accesses hundreds of megabytes at random: with pages of 4 KiB
 // nearly every access would miss the TLB as well as the cache.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Parameters of restitution models and effects, by name, as a grid gives them.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Portable random numbers: the same seed gives the same bits on every machine.
 //
 // Every use has a stream of its own, named here, so that a new use never changes the numbers of

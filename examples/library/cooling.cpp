@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A gas of 4000 inelastic spheres cools: its temperature beside Haff's law.
 #include <cmath>
 #include <cstdio>

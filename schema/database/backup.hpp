@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A copy of a store in use, by SQLite's online backup.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // One connection to a store: how it is opened, and SQLite's errors in our words. Private to this
 // folder.
 //

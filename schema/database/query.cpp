@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "schema/database/query.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A user's SQL statement and its rows, one after another.
 #pragma once
 

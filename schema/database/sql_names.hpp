@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The names in an SQL expression that a user has typed.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A store's version: how many of the scripts 001-....sql, 002-....sql it has seen.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The views that average over realizations: mean_series, mean_temperatures, mean_tau_c and
 // mean_profiles. They hold no data. The program makes them out of its list of columns whenever a
 // store is made or brought forward. Private to schema/.

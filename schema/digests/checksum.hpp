@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The checksum of a checkpoint: FNV-1a with 64 bits (Fowler, Noll and Vo). Every step is
 // invertible, so that any change confined to one byte, and any bit flip, changes the sum; other
 // damage goes unseen with probability 2^-64. It is short, so that a user can write it

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "schema/digests/digests.hpp"
 
 #include <sqlite3.h>

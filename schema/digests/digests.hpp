@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Digests of rows: whether what a store says is what was written into it (017-digests.sql).
 //
 // Every transaction that writes keeps them (Database::transaction), whichever statements it runs:

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a job has in the store, part by part, and where a part is not as it was written.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // SQLite's way to the disk, with three things of our own in between ("VFS" in its documentation).
 //
 //  * What failed is remembered, so that a message can name the file, the operation and the system's

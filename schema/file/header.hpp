@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the first bytes of a store's file say, and how long it is: asked of the file itself, past
 // SQLite's pages and locks (sqlite.org/fileformat.html, "The Database Header").
 #pragma once

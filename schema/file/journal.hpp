@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The rollback journal that a transaction cut off leaves beside a file without a log: SQLite puts
 // the pages in it back when the file is next opened. It does not ask whose they are.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The write-ahead log beside a store that is in use.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The name of a store: always a path to one file, whatever else SQLite would read into it.
 #pragma once
 

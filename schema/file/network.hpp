@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Whether a file lies on a disk of this machine.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // An open file of SQLite's that hands every call to the file below it. A layer between SQLite and
 // the system ("VFS" in its documentation) takes passing_methods() and puts its own functions in the
 // places where it has something to do.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How long a connection waits for others, and that it ends when it is asked to.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // SQLite's errors in our words: which file, what is wrong, why, and what to do next.
 #pragma once
 

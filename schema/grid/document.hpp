@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A JSON text read strictly. The JSON library alone would keep the last of two equal keys and
 // would not say where a number overflows. Private to schema/.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The effects of a gas beyond constant restitution: what a grid asks for and a job has, parsed
 // once. And what a JSON schema cannot say of them: which do not go together, which matter at e = 1,
 // and which leave Haff's law as it is.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The rules of a grid that a JSON schema cannot express: what fits into a box, what goes together,
 // what can be reached. Private to schema/.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A grid file: what a user asks for, read, validated and made explicit (grid.schema.json).
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a job is: the physics that defines it, its kind and its status.
 //
 // Campaign makes jobs out of a grid, the store keeps them; both use the same words as the columns

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The observables of a grid, and the curves that they leave in the table profiles, once for all. A
 // new observable is a line in each of the two tables of observables.cpp and its name in
 // grid.schema.json; CONTRIBUTING.md says where it is measured.

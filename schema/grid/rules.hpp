@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A grid's JSON against grid.schema.json, and one message that says what is wrong. Private to
 // schema/.
 #pragma once

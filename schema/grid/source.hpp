@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Where a key of a grid stands in its file, and what it holds. Private to schema/.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A standard error that a series is to reach by as many realizations as it takes.
 #pragma once
 

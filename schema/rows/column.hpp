@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // One column of a row, checked. A store is a file that may come from anywhere: what stands in it
 // is input, and is checked here once, so that no text of it reaches a terminal or a figure as a
 // command, and no number is believed that the program itself would not have written. Private to

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a job has measured and where it is, as rows of the tables of 001-store.sql and the scripts
 // after it.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The columns of the table samples, once for all: rows are read, written, compared, averaged and
 // summed up by this list. A new column is a line here, a member of Sample, and ALTER TABLE samples
 // in a script. Units and meaning: 001-store.sql and the scripts after it. Private to schema/.

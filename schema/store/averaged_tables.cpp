@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "schema/store/averaged_tables.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>

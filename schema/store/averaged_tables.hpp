@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The averaged tables of a store as a small SQLite file of their own: what a page or a mail can
 // take along, and any reader of SQLite can ask.
 #pragma once

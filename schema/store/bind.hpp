@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the statements of this folder share. Private to schema/.
 #pragma once
 

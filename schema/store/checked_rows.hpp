@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Rows of the store's tables as the structs of store.hpp, each checked as far as a row can be
 // checked by itself: BadValue (column.hpp) if this program would not have written it. Private to
 // schema/.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Which jobs a user wants, and in which order: SQL that a user has typed, read as one condition and
 // one list of terms over the table jobs.
 //

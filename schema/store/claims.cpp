@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Which worker holds a job: claiming, giving back, failing, reopening.
 #include <limits>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a worker commits: rows, a state, results, and with them the end of its job.
 #include <algorithm>
 #include <bit>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a job's error says when a row that was computed a second time is not what it was the first
 // time. `campaign retry` knows such a job by it.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A flipped bit in a job's row of the table jobs, turned back. Rows of results can be computed
 // again, but nothing else knows a job's tau_max. The digest tells when the row is right, and single
 // bits are few: some 64 for each of forty numbers, 8 for each character. That another row than the

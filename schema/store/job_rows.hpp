@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The rows that two stores have of one job: copied, compared, put in each other's place. Private to
 // schema/.
 #pragma once

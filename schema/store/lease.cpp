@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "schema/store/lease.hpp"
 
 #include "schema/store/bind.hpp"

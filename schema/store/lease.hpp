@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The right to write to a job: whether it is held, and its end. Private to schema/.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How a store is opened, brought forward, and closed.
 #include "schema/database/database.hpp"
 #include "schema/rows/column.hpp"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a plan adds to the store: jobs, targets, and what targets are expected to take.
 #include <stdexcept>
 

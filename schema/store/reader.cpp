@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "schema/store/reader.hpp"
 
 #include <fmt/format.h>

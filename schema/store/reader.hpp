@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A store as it is read: jobs, what they have measured, and whether it is as it was written.
 #pragma once
 

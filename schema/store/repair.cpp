@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Rows that are not as they were written: put right, dropped, digested again.
 #include <set>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A plan that is revised: jobs that are no longer wanted go, others end earlier, a grid replaces
 // what was planned before.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Shards: stores that hold some jobs of a campaign, to be run somewhere else.
 //
 // A shard is a store like any other. It carries the campaign_id of the store that lent it its jobs,

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The store: one SQLite file with everything a campaign knows (tables: 001-store.sql).
 //
 //   Store store = Store::create("campaign.db");

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What is planned, which process works on it, and what a worker commits.
 #pragma once
 

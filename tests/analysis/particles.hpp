@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Particles without physics, for the tests of measurements.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How fast is the engine? Collisions per second of a gas that has been warmed up.
 //
 //   engine_benchmark --N 4000 --n 0.4 --e 1 --warmup 20 --tau 20 --json

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # Does the benchmark run, and is the trajectory the same whichever search looks for contacts?
 #   cmake -DBENCHMARK=<engine_benchmark> -P hashes.cmake
 cmake_minimum_required(VERSION 3.25)

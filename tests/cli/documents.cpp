@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The man page and the completions, as the program describes its own command line.
 #include <doctest/doctest.h>
 

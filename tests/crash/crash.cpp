@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A small campaign whose disk loses power or fails, over and over: what is there afterwards is
 // sound, and the same commands end with the same rows.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A disk that keeps a record of all that is asked of it, and can be told to fail: SQLite's default
 // VFS and allocator in the program `campaign_faulty`, which is `campaign` but for this file. Told
 // by the environment, in all processes of a run:

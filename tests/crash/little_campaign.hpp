@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The small campaign that is killed, loses power and whose disk fails: the program, its store, what
 // must be in there in the end.
 #pragma once

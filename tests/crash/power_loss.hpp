@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a disk may hold after power was lost, made from a record of what was asked of it.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Many commands at once on one store and its shards, and most of them killed.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The record of what the processes of a campaign asked of the disk: headers, each followed by
 // `size` bytes of data.
 #pragma once

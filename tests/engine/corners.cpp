@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Where event-driven engines fail: each corner a test. Long versions: tests/validate/corners.cpp.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The collision rate of a very dilute gas: cells are wide, and a particle passes many before it
 // collides. Five minutes under sanitizers, on paths that the corner "cells of a very dilute gas
 // adapt" takes as well: left out there (CMakePresets.json).

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Disks: a plane of their own, the same promises as spheres, the pressure they should have.
 #include <doctest/doctest.h>
 

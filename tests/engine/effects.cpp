@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Effects: what each promises, and that a run resumed in their midst is the same run.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The bits of twenty-odd trajectories, one of each kind: every effect, both dimensions, thin and
 // dense gases, corners. They are the same with every compiler, SIMD target and machine.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Initial states: no overlap, unit energy, no momentum, a function of (n, N, seed).
 #include "engine/initial.hpp"
 

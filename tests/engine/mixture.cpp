@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Mixtures: conservation laws, the naive reference, restarts, and equal species.
 #include "engine/mixture.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The engine against the naive reference: every event, every bit.
 #include "support/reference.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a simulation promises: conservation, the same bits however it is run, exact scaling.
 #include "engine/simulation.hpp"
 

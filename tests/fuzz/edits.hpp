@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // An input of the fuzzer as edits of a sound store: what each byte does is found by coverage, so
 // that few bytes reach far. The kinds of edits, and what follows each: apply() in edits.cpp.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Random input through the real code: grids, states near contact, checkpoints.
 //
 //   fuzz --seed 7 --rounds 1000

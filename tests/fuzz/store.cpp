@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Hostile and damaged stores through the program's own reader, with libFuzzer (clang++) or, with
 // another compiler, over the files that are named: the kept corpus, or an input that ended the
 // program.

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # The engine in another project, in a path with blanks, where no library but Highway can be found.
 #   cmake -DWAY=find_package|add_subdirectory|FetchContent -DSOURCE=<repository> -DINSTALLED=<prefix>
 #         -DWORK=<folder> -DGENERATOR=<generator> -DCXX=<compiler> -P library.cmake

@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # The page of `campaign report` in a real browser (page.mjs).
 #   cmake -DCAMPAIGN=<program> -DSOURCE=<this folder> -DWORK=<folder> -P browser.cmake
 # Needs chromium and npm (.ci/packages lint installs them); where one is missing, the test is skipped,

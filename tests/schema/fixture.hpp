@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the tests of this folder share: a small campaign.
 #pragma once
 

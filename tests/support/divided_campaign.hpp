@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A campaign that is divided among shards or the tasks of a cluster, and what must come home of it.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Single flipped bits in the file of a store that holds every effect and observable: each that
 // changes what the store says is found, and those of values are put right.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // States made by hand, and what tests ask of a gas.
 #pragma once
 

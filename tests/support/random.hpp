@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Random numbers of the tests: the same ones with every compiler and on every machine.
 #pragma once
 

@@ -1,5 +1,7 @@
-// A naive reference engine: every pair, every image in reach, at every event. Slow and evidently right; the
-// real engine must agree with it event by event and bit by bit.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// A naive reference engine: every pair, every image in reach, at every event. Slow and evidently
+// right; the real engine must agree with it event by event and bit by bit.
 //
 // It shares the definition of a contact, a collision and a synchronization (engine/collision,
 // engine/particles/synchronize.hpp), the restitution models and the actions, and nothing else: no

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Relative differences, to say what is allowed. doctest's Approx(x).epsilon(eps) allows
 // eps (1 + |x|): of a small x far more than the eps that stands there.
 #pragma once

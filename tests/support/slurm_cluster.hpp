@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A cluster of this one machine: munged, slurmctld and two slurmd of Debian's packages slurm-wlm
 // and munge, all in a folder of the test's own and gone with it. Nothing is read or written
 // elsewhere: SLURM_CONF in the environment of this process names the cluster to all that it starts.

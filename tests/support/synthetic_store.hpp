@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Stores that look like a campaign's, made from theory and noise: for what reads results and does
 // not care where they come from.
 #pragma once

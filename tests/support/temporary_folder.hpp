@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A folder of a test's own, gone when the test is.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Error bars of real gases: a large set of seeds split into small ones, whose intervals must hold
 // the mean of all as often as they say.
 #include "analysis/statistics/accuracy.hpp"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The slow corners; quick versions: tests/engine/corners.cpp.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Boxes below and above the smallest one that holds a vortex, L_c = 2 pi xi_perp (11.2 sigma and
 // N = 563 at e = 0.8, n = 0.4): below, gamma/gamma_0 stays constant for ever, some per cent below
 // one, since short waves are correlated there, too; above, the shear mode of wave number 2 pi/L

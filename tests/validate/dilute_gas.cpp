@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The gas itself, dilute: without correlations its a_2 is that of the Enskog-Boltzmann equation, by
 // direct simulation, and not the -A/B of first order in a_2.
 #include <doctest/doctest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Disks (d = 2): Henderson's fluid when elastic, Enskog-Boltzmann theory while they are not
 // correlated, and the end of that: H. Nakanishi, Phys. Rev. E 67, 010301 (2003), cond-mat/0208477,
 // saw a_2 of cooling disks reach its plateau and go back while Haff's law still held.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The early stage of cooling against R. Kawahara and H. Nakanishi, cond-mat/0309130: Laguerre
 // coefficients, decay and the energy equation at n = 0.40.
 #include <doctest/doctest.h>

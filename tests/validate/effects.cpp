@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Effects against published physics: the shuffled and the heated gas, and laws of restitution.
 #include <doctest/doctest.h>
 

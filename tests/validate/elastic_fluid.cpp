@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Elastic spheres and disks: compressibility factor Z = p/(nT) from the collisional virial, and
 // collision rate.
 //

@@ -1,4 +1,7 @@
-// Hundreds of flipped bits, each from a seed; a few are in the gate (tests/cli/store/flipped_bits.cpp).
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Hundreds of flipped bits, each from a seed; a few are in the gate
+// (tests/cli/store/flipped_bits.cpp).
 #include "support/flipped_bits.hpp"
 
 #include <doctest/doctest.h>

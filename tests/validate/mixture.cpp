@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Mixtures of spheres and disks against V. Garzo and J. Dufty, Phys. Rev. E 60, 5706 (1999), and,
 // heated, A. Barrat and E. Trizac, Granular Matter 4, 57 (2002): species of different mass and size
 // have different temperatures, whose ratio stays.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // examples/paper-small.json, run by the real program to its page of figures, against the published
 // numbers: all that examples/paper/ shows, in a box 2.7 times smaller.
 #include <doctest/doctest.h>

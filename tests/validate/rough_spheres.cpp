@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Rough spheres against M. Huthmann and A. Zippelius, Phys. Rev. E 56, R6275 (1997): the ratio of
 // rotational to translational temperature that a cooling gas comes to, and the way to it.
 #include "analysis/theory/rough_spheres.hpp"

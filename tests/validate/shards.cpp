@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Shards of every size and in great number: memory stays flat, time grows with the number of jobs.
 // And more random campaigns than cli/cluster/shards has time for.
 #include <doctest/doctest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Tasks and nodes of a real Slurm (support/slurm_cluster.hpp) disturbed in every way that happens
 // on a cluster: minutes, since Slurm itself waits for nodes and counts time limits in minutes. In
 // the end the rows are those of one undisturbed run, in every bit, and only what was lost was

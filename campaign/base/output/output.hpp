@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Standard output: what is printed for people, and whether it arrived.
 #pragma once
 

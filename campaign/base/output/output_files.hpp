@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Files written one after another: one that cannot be written does not keep the next from it.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A file that is there and whole, or not there at all.
 #pragma once
 

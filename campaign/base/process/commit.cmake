@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # Writes the present git commit into a header, at every build, only when it has changed.
 #   cmake -DSOURCE=<repository> -DVERSION=<version> -DOUTPUT=<header> -P commit.cmake
 cmake_minimum_required(VERSION 3.25)

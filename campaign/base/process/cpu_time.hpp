@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // CPU time that processes have spent. [s]
 #pragma once
 

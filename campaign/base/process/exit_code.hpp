@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How the program ends. The same numbers for every command.
 #pragma once
 

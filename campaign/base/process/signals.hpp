@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Signals that ask to stop: Ctrl-C (SIGINT), SIGTERM, a terminal that is gone (SIGHUP), and what
 // batch systems send before a time limit (SIGUSR1, SIGUSR2, SIGXCPU).
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the error of a job says that would fail again in the same way, so that no command advises to
 // try it once more.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Comma-separated values as RFC 4180 has them, but with lines ended by a line feed alone, as Unix
 // tools expect; every reader of CSV takes both.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Durations as people write them: 90, 90s, 45m, 1h30m, 2d.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What an error says to a user, with the command that would help.
 #pragma once
 

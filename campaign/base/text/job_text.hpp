@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Jobs in words, for tables, logs and messages.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "campaign/base/text/number_text.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Numbers as text, for tables, captions and messages; and back.
 #pragma once
 

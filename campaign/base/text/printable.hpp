@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Text from elsewhere, made safe to show. A store may come from another person: its text
 // must not move the cursor of a terminal, end a line of a script, or become a tag of a page.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Aligned tables for people: a head, rows, columns as wide as they need.
 #pragma once
 

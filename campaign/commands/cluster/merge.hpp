@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign merge`: what shards have computed comes home.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The options of split, merge, recall, submit, task.
 #include "campaign/commands/options.hpp"
 

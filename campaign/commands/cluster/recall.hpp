@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign recall`: jobs that a shard will not finish are pending again.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign split`: pending jobs, lent to shards for other machines.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign submit`: the pending jobs of a store, run by Slurm; `campaign task`: one task of it.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign export`: the state of a job for other programs.
 #pragma once
 

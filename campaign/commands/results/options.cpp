@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The options of query, figures, plot, export, cost, report, theory.
 #include "campaign/commands/options.hpp"
 
@@ -147,8 +149,8 @@ CLI::App* add_export(CLI::App& app, ExportCommand& options) {
   command->add_option("JOB", options.job_id, "The job_id, as in the table jobs")
       ->type_name("NUMBER")
       ->required();
-  command->footer(
-      examples(R"(  campaign query "SELECT job_id, kind, e, n, particles, seed, tau_reached FROM jobs"
+  command->footer(examples(
+      R"(  campaign query "SELECT job_id, kind, e, n, particles, seed, tau_reached FROM jobs"
   campaign export 3 > job-3.xyz     open it in OVITO: particles, box, velocities
   campaign export 3 | gzip > job-3.xyz.gz
 

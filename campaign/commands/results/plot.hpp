@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign plot`: a question of the user's own, as a picture, a table or text.
 #pragma once
 

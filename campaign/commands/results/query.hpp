@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign query`: one SQL statement that reads, its rows as a table, CSV or JSON.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign report`: the store as a page to look at.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign theory`: a theory curve as a table, CSV or JSON.
 #pragma once
 

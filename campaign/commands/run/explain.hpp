@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign explain JOB`: why a job is where it is, and what happens next.
 #pragma once
 

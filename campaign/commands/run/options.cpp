@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The options of plan, run, status, explain, and the worker that run starts.
 #include "campaign/commands/options.hpp"
 

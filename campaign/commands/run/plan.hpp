@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign plan`: a grid becomes jobs in the store.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What planning a grid did, or would do, and what it will cost.
 #pragma once
 

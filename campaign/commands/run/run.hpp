@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign run`: rounds of work until the store's targets are met, and what came of them.
 #pragma once
 

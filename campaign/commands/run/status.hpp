@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign status`: where a campaign stands, and what to type next.
 #pragma once
 

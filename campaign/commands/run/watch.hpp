@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The same text again and again, as it changes (`status --watch`).
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "campaign/commands/store/backup.hpp"
 
 #include "campaign/base/output/output.hpp"

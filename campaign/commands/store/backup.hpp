@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign backup FILE`: a copy of the store, also while a run is on.
 #pragma once
 

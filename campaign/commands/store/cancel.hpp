@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign cancel`: jobs that are no longer wanted leave the store.
 #pragma once
 

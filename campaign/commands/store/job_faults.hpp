@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What is wrong with one job in the store: its state, its samples, its profiles, its results.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The options of verify, retry, cancel, backup, upgrade.
 #include "campaign/commands/options.hpp"
 

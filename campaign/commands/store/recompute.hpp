@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign verify --recompute JOB|all|N%`: finished jobs once more, compared in every bit.
 #pragma once
 

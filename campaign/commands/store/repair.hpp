@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign verify --repair`: what the digests or the checks of jobs find wrong is computed again,
 // and put right where it differs.
 #pragma once

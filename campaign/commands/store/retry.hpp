@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign retry`: failed jobs get another chance, damaged checkpoints are thrown away.
 #pragma once
 

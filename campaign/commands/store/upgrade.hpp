@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign upgrade`: brings a store of an older version of this program forward.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign verify`: is the store sound, and did the physics hold?
 #pragma once
 

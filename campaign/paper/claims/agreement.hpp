@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the simulations say beside what is published and what theory gives: each claim with its
 // number, its 95 % interval, what it is compared with and what it is held to (judgement.hpp).
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The claims of the table of agreement, by subject. Each function adds those that the averages have
 // data for.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // When clusters appear, measured beside tau_c: said, not judged. Both onsets lie between samples
 // that are some way apart: ln of the growing quantity is interpolated linearly between them.
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How fast the gas cools. Theory: the energy equation with the loss of Enskog-Boltzmann theory
 // (analysis/theory/energy_equation.hpp). Its rivals, which every claim must be able to refute:
 // Haff's law, Enskog-Boltzmann theory without correlations, and the energy equation with b off by

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Velocity correlations beside the theory of an incompressible fluid, and their scaling.
 #include "analysis/theory/correlations.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a claim is held to. A tolerance chosen by hand may be so wide that a wrong theory passes:
 // here the nearest theories that are known to be wrong set it. A measured value agrees with a
 // theory if it lies nearer to it than half the way to the nearest of its rivals.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How far velocities are from Gaussian: a_2 leaves zero as Enskog-Boltzmann theory has it and
 // returns before tau_c. Errors are those that Gaussian velocities have
 // (analysis/observables/moments.hpp), which are known better than the scatter of a few

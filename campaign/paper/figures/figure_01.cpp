@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 1: how the temperature decays, T(tau)/T_0 against 2 gamma_0 tau, beside Haff's law. On
 // this axis Haff's law is one line for every e; the circles mark tau_c, where T is twice that.
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 2: how long the homogeneous stage lasts, tau_c against 2 gamma_0, beside the published
 // values and the energy equation's; as an inset tau_c over that of the energy equation, where error
 // bars can be seen.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 3: the velocity distribution rho(c) at several tau through tau_c at e = 0.80, beside the
 // Gaussian exp(-c^2); as an inset the ratio of the two, where it is known to a fifth. Of the
 // Gaussian, too, the mean over a bin is taken there: at c = 3 it is 1.4 % more than its value in

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 4: how the velocity distribution leaves the Gaussian and returns, a_2, a_3, a_4 against
 // tau at e = 0.90, with tau_c marked, beside what a gas without correlations does.
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 5: a_2 at e = 0.90 beside Enskog-Boltzmann theory, which knows no correlations: the gas
 // follows it for a few collisions per particle only (inset), then turns back.
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 6: a_2 at short times for several densities at e = 0.85, beside Enskog-Boltzmann theory,
 // which is the same for all. The denser the gas, the sooner its correlations turn a_2 back.
 #include <algorithm>

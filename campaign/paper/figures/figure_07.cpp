@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 7: a_2 of one realization far into the clustering stage, against tau / tau_c for the four
 // e. Measured at integer tau and smoothed over Delta tau = 3, 3, 5, 7, as the paper's.
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 8: the coarse-grained velocity field at e = 0.80, tau = 60. Three neighbouring layers of
 // cells, 3/32 of z, and of each a quarter of the xy plane. An arrow is the velocity in the plane,
 // its length and tone its size in units of the thermal velocity v_0 = sqrt(2 T / m).

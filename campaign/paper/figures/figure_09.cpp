@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 9: velocity correlations along and across the separation at tau = 50, e = 0.80, beside
 // the theory of an incompressible fluid.
 #include <fmt/format.h>

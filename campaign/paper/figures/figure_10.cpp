@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 10: velocity correlations at e = 0.80 for 20 <= tau <= 60, with lengths measured in
 // sigma sqrt(tau) and G in T_0 / (m tau^(d/2)): were it for the diffusion of vorticity alone, they
 // would fall on one curve. Beside them the theory of an incompressible fluid at the first and the

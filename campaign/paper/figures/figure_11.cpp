@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 11: the local decay rate gamma(tau)/gamma_0 in the early stage. It falls below one from
 // the start, as the energy equation says, and far more than Enskog-Boltzmann theory allows; of
 // that the curve shown is the one that deviates most (e = 0.865).

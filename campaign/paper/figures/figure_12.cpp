@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 12: the local decay rate gamma(tau)/gamma_0 for several densities at e = 0.85. The energy
 // equation depends on n through the correlations; Enskog-Boltzmann theory does not.
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 13: what velocity correlations add to the energy, E - E_Haff against tau, beside the
 // energy equation. Where a curve crosses its own E_Haff (dotted), E is twice Haff's: tau_c.
 #include <fmt/format.h>

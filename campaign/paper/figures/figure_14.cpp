@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Figure 14, not of the paper but its argument: with velocities shuffled, and so without
 // correlations, a_2 stays near the value of Enskog-Boltzmann theory and energy is lost nearly at
 // that theory's rate. Positions are not shuffled: see the note on shuffled gases in

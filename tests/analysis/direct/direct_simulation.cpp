@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The direct simulation against what is known exactly: an elastic gas stays Gaussian, the first
 // slopes of a_2 and a_3, the first collision rate, energy given and lost.
 #include "analysis/direct/direct_simulation.hpp"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The table of direct simulations, held to an independent direct simulation.
 #include "analysis/direct/table.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Clusters placed by hand, and those of particles that are anywhere.
 #include "analysis/observables/cluster_sizes.hpp"
 

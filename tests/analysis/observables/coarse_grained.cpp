@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Coarse-grained fields of particles placed by hand, and the correction of the local temperature.
 #include "analysis/observables/coarse_grained.hpp"
 

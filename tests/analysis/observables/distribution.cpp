@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The velocity distribution: its normalization, exact speeds, and a Gaussian gas.
 #include "analysis/observables/distribution.hpp"
 

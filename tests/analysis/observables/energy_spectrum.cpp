@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Energy spectra of flows that are known, and of thermal velocities.
 #include "analysis/observables/energy_spectrum.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Temperature and Laguerre coefficients of arrays whose distribution is known.
 #include "analysis/observables/moments.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // g(r) of particles placed anywhere, on a lattice, and by brute force. What it is in an elastic gas
 // is in tests/validate/observables.cpp.
 #include "analysis/observables/pair_distribution.hpp"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Structure factor and clusters of particles placed by hand and at random.
 #include "analysis/observables/structure.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The tail of distributions that are known.
 #include "analysis/observables/tail.hpp"
 

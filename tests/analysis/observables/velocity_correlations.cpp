@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Measured correlations: against sums over all pairs, a shear mode whose correlations are known in
 // closed form, and velocities that have none.
 #include "analysis/observables/velocity_correlations.hpp"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Intervals that hold the truth as often as they say, and stopping rules that leave it so.
 #include "analysis/statistics/accuracy.hpp"
 

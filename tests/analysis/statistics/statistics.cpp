@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Means and errors of values whose errors are known.
 #include "analysis/statistics/statistics.hpp"
 

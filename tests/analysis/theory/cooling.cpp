@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Haff's law, decay rates and the crossover of series made up for the purpose.
 #include "analysis/theory/cooling.hpp"
 

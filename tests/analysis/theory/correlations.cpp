@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Velocity correlations against sum rules and against the same theory done in wave numbers.
 #include "analysis/theory/correlations.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The energy equation against an independent solution (digits as given there), the paper's
 // crossover times, and its own limits; the fit of b against series made with a known b.
 #include "analysis/theory/energy_equation.hpp"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Transport coefficients and lengths of the elastic fluid against numbers from an independent
 // calculation at n = 0.40, good to the digits given, and against limits known exactly.
 #include "analysis/theory/enskog.hpp"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The uncorrelated cooling gas: limits and extrema that the theory is known for.
 #include "analysis/theory/enskog_boltzmann.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The uncorrelated cooling mixture: limits in which its formulas are known.
 #include "analysis/theory/mixture.hpp"
 

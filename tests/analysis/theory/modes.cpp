@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The mode spectrum against its own limits at long waves and against its determinant.
 #include "analysis/theory/modes.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The uncorrelated gas of rough spheres: limits, and the two forms in which its ratio is published.
 #include "analysis/theory/rough_spheres.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What errors come from, of gases whose errors are put in.
 #include "campaign/accuracy/assessment.hpp"
 

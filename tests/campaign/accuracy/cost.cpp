@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What `campaign cost` says and writes.
 #include "campaign/accuracy/cost.hpp"
 

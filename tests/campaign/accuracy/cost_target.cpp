@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // An error that is wanted, as the command line names it.
 #include "campaign/accuracy/cost_target.hpp"
 

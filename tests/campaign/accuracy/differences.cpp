@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Differences of gases that share what chance does to them.
 #include "campaign/accuracy/differences.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Plots that answer questions, from stores made of theory and noise.
 #include "campaign/curves/answer.hpp"
 

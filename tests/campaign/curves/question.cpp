@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a question means, and which ones make no sense.
 #include "campaign/curves/question.hpp"
 

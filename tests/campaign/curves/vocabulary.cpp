@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Words of a question, and the SQL made of them.
 #include "campaign/curves/vocabulary.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The figures command on stores made from theory: files, words and exit codes.
 #include "campaign/figures/figures.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Displacements and velocities since waiting times, through the faces of the box and through a
 // checkpoint.
 #include "campaign/job/diffusion.hpp"

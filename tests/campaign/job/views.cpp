@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Curves and fields of a gas, each only when it is asked for.
 #include "campaign/job/views.hpp"
 

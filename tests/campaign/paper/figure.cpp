@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Single figures and captions, on stores made from theory.
 #include "campaign/paper/figure.hpp"
 

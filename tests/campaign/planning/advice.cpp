@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a plan points out: values that differ by rounding, and gases that are computed again.
 #include "campaign/planning/advice.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Which gases can be prepared, and what is expected in place of the others.
 #include "campaign/planning/preparation.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Plots as tables and as scripts.
 #include "campaign/plot/plot.hpp"
 

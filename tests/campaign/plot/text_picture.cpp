@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Plots as text.
 #include "campaign/plot/text_picture.hpp"
 

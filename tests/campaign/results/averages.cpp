@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Which of a store's series the figures draw.
 #include "campaign/results/averages.hpp"
 

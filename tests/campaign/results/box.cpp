@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a box can hold by linear theory, against numbers calculated independently.
 #include "campaign/results/box.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Fits to series made from the theory that is fitted.
 #include "campaign/results/fits.hpp"
 

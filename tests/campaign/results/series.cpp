@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The table of tau_c that `status` and a run's end print.
 #include "campaign/results/series.hpp"
 

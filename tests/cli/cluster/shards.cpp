@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Campaigns divided among shards: run apart, killed, merged in any order, the same rows come home.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A campaign on a real Slurm of two nodes (support/slurm_cluster.hpp), and tasks without one.
 // tests/validate/slurm.cpp disturbs tasks and nodes in every way that Slurm can.
 #include <doctest/doctest.h>

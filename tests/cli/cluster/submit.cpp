@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign submit` where Slurm is played by scripts: whatever is refused, cut off or gone, the
 // next one knows what is out and goes on from there.
 #include <doctest/doctest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Every CSV file that the program writes, read back by another reader: Python's csv module, and
 // pandas where it is installed.
 #include <doctest/doctest.h>

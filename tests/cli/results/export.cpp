@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign export`: the last stored state of a job as extended XYZ.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // --json: what programs read, and errors that they can read.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // campaign plot: questions to a store that the real program has filled.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign report`: what it writes, and what it says where it cannot. What the page does in a
 // browser is tested by tests/report.
 #include <doctest/doctest.h>

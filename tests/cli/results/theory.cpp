@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign theory`: curves by name, in columns, without a store.
 #include <doctest/doctest.h>
 

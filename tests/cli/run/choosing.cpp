@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // `campaign run --where` and `--order` choose jobs; `campaign cancel` and `plan --replace` take
 // those away that are no longer wanted.
 #include <doctest/doctest.h>

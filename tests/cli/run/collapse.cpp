@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Inelastic collapse, as the user of the program meets it.
 #include <doctest/doctest.h>
 
@@ -28,9 +30,10 @@ TEST_CASE("collapse: ends a job with its series, named, and fails nothing") {
                "tau = %'") == 1);
   CHECK(number(folder, "SELECT tau_reached FROM jobs WHERE status = 'collapsed'") > 0);
   // The series up to then, and only that.
-  CHECK(number(folder,
-               "SELECT count(*) = floor(tau_reached / 0.5) + 1 FROM samples JOIN jobs USING (job_id) "
-               "WHERE status = 'collapsed'") == 1);
+  CHECK(
+      number(folder,
+             "SELECT count(*) = floor(tau_reached / 0.5) + 1 FROM samples JOIN jobs USING (job_id) "
+             "WHERE status = 'collapsed'") == 1);
   CHECK(number(folder, "SELECT count(*) FROM results") == 0);
   CHECK(number(folder,
                "SELECT unresolved_collisions FROM invariants JOIN jobs USING (job_id) "

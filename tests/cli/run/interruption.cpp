@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The program killed and interrupted at any moment.
 #include <doctest/doctest.h>
 
@@ -119,7 +121,8 @@ TEST_CASE("interruption: SIGINT and SIGTERM stop a run in order, and the same co
     const Folder folder;
     plan(folder, grid);
     Program run(folder, {"run", "--workers", "2"});
-    while (number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") == 0) sleep_for(5ms);
+    while (number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") == 0)
+      sleep_for(5ms);
     run.signal(stop.signal);
     const auto start = std::chrono::steady_clock::now();
     const Outcome outcome = run.wait();
@@ -151,7 +154,8 @@ TEST_CASE("interruption: a worker that another program stops is replaced") {
   const Folder folder;
   plan(folder, long_grid);
   Program run(folder, {"run", "--workers", "1"});
-  while (number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") == 0) sleep_for(5ms);
+  while (number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") == 0)
+    sleep_for(5ms);
   const auto before = run.workers();
   REQUIRE(before.size() == 1);
   kill(before.front(), SIGTERM);

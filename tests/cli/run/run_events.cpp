@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a run tells other programs: --log-json and --on-finish.
 #include <doctest/doctest.h>
 

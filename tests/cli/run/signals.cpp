@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Signals, and what a parent can have done to them.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <doctest/doctest.h>
@@ -20,7 +22,8 @@ void plan(const Folder& folder, const std::string& grid) {
 }
 
 void wait_for_cooling(const Folder& folder) {
-  while (number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") == 0) sleep_for(5ms);
+  while (number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") == 0)
+    sleep_for(5ms);
 }
 
 }  // namespace

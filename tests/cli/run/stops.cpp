@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a stop keeps, and what a kill costs.
 #include <doctest/doctest.h>
 

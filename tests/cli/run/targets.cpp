@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Accuracy asked for instead of a number of seeds.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the program shows, where it shows it, and what happens when nothing takes it.
 #include <doctest/doctest.h>
 #include <fcntl.h>

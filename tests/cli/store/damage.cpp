@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Checkpoints that are damaged are reported and never used.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A few flipped bits in the gate; hundreds of them in tests/validate/flipped_bits.cpp.
 #include "support/flipped_bits.hpp"
 

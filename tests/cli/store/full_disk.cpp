@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // No space left: a clear error, a store that is sound, and the same command goes on when there is
 // room again.
 #include <doctest/doctest.h>

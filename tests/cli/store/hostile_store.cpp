@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A store made elsewhere: its text reaches no shell, no script, no page and no terminal as
 // a command.
 #include <SQLiteCpp/SQLiteCpp.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The store as a file: named, copied, moved and deleted by people while the program uses it.
 #include <doctest/doctest.h>
 
@@ -24,7 +26,8 @@ void plan(const Folder& folder, const char* text) {
 }
 
 void wait_for_work(const Folder& folder) {
-  while (number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") == 0) sleep_for(5ms);
+  while (number(folder, "SELECT max(tau_reached) FROM jobs WHERE kind = 'cooling'") == 0)
+    sleep_for(5ms);
 }
 
 // What becomes of a run from under which the store is taken by this command.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Rough spheres: conservation laws, the naive reference, restarts, and the smooth limit.
 #include "engine/collision/rough_collision.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Several threads compute the same bits as one: every effect, spheres and disks, any number of
 // threads, windows of any length, stops anywhere.
 #include <doctest/doctest.h>

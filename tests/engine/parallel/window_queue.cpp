@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The events of one window come in the order of their times, whether they were taken at its begin
 // or added on the way, and outdated entries are dropped.
 #include "engine/parallel/window_queue.hpp"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a synchronization checks and puts right, one thing at a time.
 #include "engine/particles/synchronize.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The ladder queue: events come out in the order of their times, whatever happened to them since.
 #include "engine/queue/ladder_queue.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Bricks: the 27 cells (of disks 9) around a cell, the nine beyond a face, crowded bricks, leaving
 // a cell.
 #include "engine/search/bricks.hpp"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The random streams: portable bits, normal deviates.
 #include "engine/support/random.hpp"
 

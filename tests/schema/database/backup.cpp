@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A backup is the store at one moment, in one file, whatever is going on.
 #include "schema/database/backup.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Opening a store: what is made, what is brought forward, what is refused.
 #include "schema/database/database.hpp"
 

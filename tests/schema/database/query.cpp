@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A user's SQL: typed values out, no writes in.
 #include "schema/database/query.hpp"
 

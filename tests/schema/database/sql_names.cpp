@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Names in an SQL expression, and their replacement.
 #include "schema/database/sql_names.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A store's schema is the program's own, to the letter, or it is not used.
 #include "schema/database/versions.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Digests of rows: kept by every write, and what does not match them is refused.
 #include "schema/digests/digests.hpp"
 
@@ -171,8 +173,9 @@ TEST_CASE("digests: a job whose row has changed is not worked on, and a flipped 
 TEST_CASE("digests: what was changed without a look is an error of this program") {
   Working working;
   Database database(working.path, Access::write);
-  CHECK_THROWS_AS(database.transaction([&] { database.sqlite().exec("UPDATE jobs SET tau_reached = 1"); }),
-                  std::logic_error);
+  CHECK_THROWS_AS(
+      database.transaction([&] { database.sqlite().exec("UPDATE jobs SET tau_reached = 1"); }),
+      std::logic_error);
 }
 
 TEST_CASE("digests: a merge carries them along, and refuses what does not match") {

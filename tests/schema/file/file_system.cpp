@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What SQLite asks of the disk, and what becomes of the disk's answers.
 #include "schema/file/file_system.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The name of a store is a path to one file, whatever it looks like.
 #include "schema/file/name.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Effects in a grid: read, refused, expanded to one canonical text each.
 #include <doctest/doctest.h>
 

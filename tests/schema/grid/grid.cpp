@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A grid file becomes lists with every default filled in, or one message that says what is wrong.
 #include "schema/grid/grid.hpp"
 

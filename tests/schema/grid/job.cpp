@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A job's identity is its physics, in one canonical text.
 #include "schema/grid/job.hpp"
 

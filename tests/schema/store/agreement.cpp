@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Samples that are computed a second time: of one job, and of two jobs with the same physics.
 #include "schema/store/agreement.hpp"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Claiming, giving back, failing, reopening: which change of a job is whose.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What is committed, what is refused, and what a crash or a full disk leaves.
 #include <doctest/doctest.h>
 #include <sys/resource.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The views that average over realizations, against a direct computation.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a plan adds to a store, and what it leaves as it is.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Profiles and fields: written with the samples beside them, never changed, read back with every
 // bit, averaged over realizations.
 #include <SQLiteCpp/SQLiteCpp.h>

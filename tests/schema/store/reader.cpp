@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What is stored is read back whole, or reported as damaged: never used in between.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Jobs that are cancelled, and grids that replace a plan: what goes, what stays, and that the store
 // is sound afterwards.
 #include "schema/store/revision.hpp"

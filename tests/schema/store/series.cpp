@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Samples beside their jobs: in the view series, and joined by a user.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <doctest/doctest.h>

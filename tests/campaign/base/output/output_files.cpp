@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "campaign/base/output/output_files.hpp"
 
 #include <doctest/doctest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What users read of an error of the store, and what they are told to type.
 #include "campaign/base/text/error_text.hpp"
 

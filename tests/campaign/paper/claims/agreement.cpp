@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The table of agreement on stores made from theory, which they must agree with.
 #include "campaign/paper/claims/agreement.hpp"
 
