@@ -35,6 +35,7 @@ std::optional<ProgramOutput> ask(const std::vector<std::string>& words) {
     throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
   std::vector<std::string> copies = words;
   std::vector<char*> arguments;
+  arguments.reserve(copies.size() + 1);
   for (std::string& word : copies) arguments.push_back(word.data());
   arguments.push_back(nullptr);
 

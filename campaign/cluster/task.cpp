@@ -61,7 +61,7 @@ class Scratch {
 
   // Moves what is here to a folder that no task removes, and returns that.
   fs::path keep() const {
-    const fs::path kept = path_.parent_path() / ("kept-" + path_.filename().string());
+    fs::path kept = path_.parent_path() / ("kept-" + path_.filename().string());
     fs::remove(path_ / lock_name);
     fs::rename(path_, kept);
     return kept;

@@ -107,7 +107,7 @@ void add_options(const CLI::App& app, std::string& page) {
 }
 
 std::string man_page(const CLI::App& app) {
-  const std::string name = app.get_name();
+  const std::string& name = app.get_name();
   std::string page = fmt::format(
       ".TH {} 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B {}\n"
       "[\\fIOPTIONS\\fR] \\fICOMMAND\\fR [\\fIARGUMENTS\\fR]\n.SH OPTIONS\n",
@@ -267,7 +267,7 @@ void add_fish(const CLI::App& app, const std::string& program, const std::string
 }
 
 std::string fish_completion(const CLI::App& app) {
-  const std::string program = app.get_name();
+  const std::string& program = app.get_name();
   std::string script = fmt::format(
       "# Completion of {0} for fish. Made by `{0} document fish`.\ncomplete -c {0} -f\n", program);
   add_fish(app, program, "", script);

@@ -125,7 +125,7 @@ class Canvas {
     std::string text;
     int before = -1;
     for (int c = 0; c < columns_; ++c) {
-      const Cell& cell = cells_[static_cast<std::size_t>(k * columns_ + c)];
+      const Cell& cell = cells_[place(c, k)];
       const bool is_empty = cell.dots == 0 && cell.mark.empty();
       const int colour = is_empty ? -1 : cell.colour;
       if (in_colour && colour != before)
@@ -145,9 +145,11 @@ class Canvas {
     int colour = -1;
     std::string mark = {};
   };
-  Cell& at(int column, int line) {
-    return cells_[static_cast<std::size_t>(line * columns_ + column)];
+  std::size_t place(int column, int line) const {
+    return static_cast<std::size_t>(line) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
   }
+  Cell& at(int column, int line) { return cells_[place(column, line)]; }
 
   int columns_, lines_;
   std::vector<Cell> cells_;

@@ -43,7 +43,8 @@ std::vector<std::string> effect_parameters(const Reader& store) {
   for (const std::string& text : texts(store, "SELECT DISTINCT effects FROM jobs")) {
     const Effects effects(text);
     for (const auto& [effect, parameters] : effects.by_name())
-      for (const auto& [parameter, value] : parameters) all.insert(effect + "." + parameter);
+      for (const auto& [parameter, value] : parameters)
+        all.insert(std::string(effect).append(".").append(parameter));
   }
   return {all.begin(), all.end()};
 }
