@@ -51,9 +51,8 @@ std::span<const PaperFigure> paper_figures() {
       {4, "Laguerre coefficients a₂, a₃, a₄", figure_04, one_restitution,
        "|a₂| > |a₃| > |a₄|; all return towards zero before τ_c (mean of 3)."},
       {5, "a₂ against Enskog–Boltzmann theory", figure_05, one_restitution,
-       "a₂ follows the theory until close to the value that this settles to, then turns back (mean "
-       "of "
-       "3, inset of 6)."},
+       "a₂ follows the theory until close to the value that this settles to, then turns back "
+       "(mean of 3, inset of 6)."},
       {6, "a₂ at short times for several densities", figure_06, several_densities,
        "the return of a₂ is slower at low n (densities not listed in the text)."},
       {7, "a₂ against τ/τ_c", figure_07, four_restitutions,
@@ -65,8 +64,8 @@ std::span<const PaperFigure> paper_figures() {
       {10, "scaling of velocity correlations", figure_10, correlations,
        "G τ^(d/2) against r/√τ falls on one curve for 20 ≤ τ ≤ 60 (N = 1 000 000)."},
       {11, "decay rate in the early stage", figure_11, four_restitutions,
-       "γ < γ₀ from the start, by far more than Enskog–Boltzmann theory has it; b = 0.30 fits all "
-       "e."},
+       "γ < γ₀ from the start, by far more than Enskog–Boltzmann theory has it; b = 0.30 fits "
+       "all e."},
       {12, "decay rate for several densities", figure_12, several_densities,
        "the same b = 0.30 fits all n."},
       {13, "energy above Haff's law", figure_13, four_restitutions,
@@ -75,9 +74,8 @@ std::span<const PaperFigure> paper_figures() {
        "not drawn there, but argued with: without correlations a₂ keeps the value that it first "
        "settles to."},
       {15, "boxes below and above the smallest that holds a vortex", figure_15, boxes,
-       "not of the paper: hydrodynamics says that γ/γ₀ stays constant below L_c = 2πξ⊥ and tends "
-       "to "
-       "(L_c/L)² above."},
+       "not of the paper: hydrodynamics says that γ/γ₀ stays constant below L_c = 2πξ⊥ and "
+       "tends to (L_c/L)² above."},
   }};
   return figures;
 }

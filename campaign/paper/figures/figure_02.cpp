@@ -16,6 +16,7 @@
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/base/text/text_table.hpp"
 #include "campaign/paper/figure.hpp"
+#include "campaign/plot/reference_line.hpp"
 #include "campaign/results/published.hpp"
 
 namespace haff::campaign {
@@ -70,8 +71,7 @@ Panel ratios(const Curve& paper, const Curve& measured, double low, double high)
   inset.y.low = 1 - reach;
   inset.y.high = 1 + reach;
   inset.y.tics = fmt::format("{:g}", round_step(reach / 2));
-  inset.commands.emplace_back(
-      "set arrow from graph 0, first 1 to graph 1, first 1 nohead back lw 1 lc rgb '#888888'");
+  inset.commands.push_back(reference_line(1));
   return inset;
 }
 

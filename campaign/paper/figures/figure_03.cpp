@@ -15,6 +15,7 @@
 #include "analysis/observables/distribution.hpp"
 #include "analysis/theory/energy_equation.hpp"
 #include "campaign/paper/figure.hpp"
+#include "campaign/plot/reference_line.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -92,8 +93,7 @@ Panel ratios(const std::vector<Curve>& curves) {
   inset.y.low = 1 - reach;
   inset.y.high = 1 + reach;
   inset.y.tics = fmt::format("{:g}", round_step(reach / 3));
-  inset.commands.emplace_back(
-      "set arrow from graph 0, first 1 to graph 1, first 1 nohead back lw 1 lc rgb '#000000'");
+  inset.commands.push_back(reference_line(1));
   return inset;
 }
 

@@ -10,6 +10,7 @@
 
 #include "campaign/paper/figure.hpp"
 #include "campaign/paper/uncorrelated.hpp"
+#include "campaign/plot/reference_line.hpp"
 
 namespace haff::campaign {
 
@@ -52,8 +53,7 @@ std::optional<Plot> figure_04(const Averages& averages) {
   const Range range = y_range(panel.curves);
   panel.y.low = range.low - 0.05 * range.width();
   panel.y.high = range.high + 0.2 * range.width();
-  panel.commands.push_back(
-      "set arrow from graph 0, first 0 to graph 1, first 0 nohead back lw 0.7 lc rgb '#888888'");
+  panel.commands.push_back(reference_line(0));
 
   for (const MeanTauC& each : choose_tau_c(averages, base_density)) {
     if (each.e != series.e || each.tau_c > end) continue;

@@ -13,6 +13,7 @@
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/base/text/text_table.hpp"
 #include "campaign/paper/figure.hpp"
+#include "campaign/plot/reference_line.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -75,7 +76,7 @@ std::optional<Plot> figure_07(const Averages& averages) {
   }
   panel.x.high = end;
   panel.commands = {
-      "set arrow from graph 0, first 0 to graph 1, first 0 nohead back lw 0.7 lc rgb '#888888'",
+      reference_line(0),
       "set arrow from first 1, graph 0 to first 1, graph 1 nohead back lw 1 dt (4,4)"};
   return Plot{.panels = {panel},
               .caption = "n = " + density_text(base_density) +

@@ -10,6 +10,7 @@
 #include "analysis/theory/cooling.hpp"
 #include "analysis/theory/correlations.hpp"
 #include "campaign/paper/figure.hpp"
+#include "campaign/plot/reference_line.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -71,8 +72,7 @@ std::optional<Plot> figure_09(const Averages& averages) {
   panel.curves.back().name = "G_perpendicular, incompressible";
   for (std::size_t i = 0; i < panel.curves.size(); ++i) panel.curves[i].colour = colour(i % 2, 2);
   panel.curves.push_back({.legend = "incompressible theory"});
-  panel.commands.emplace_back(
-      "set arrow from graph 0, first 0 to graph 1, first 0 nohead back lw 0.7 lc rgb '#888888'");
+  panel.commands.push_back(reference_line(0));
   panel.y.low = range.low - 0.1 * range.width();
   panel.y.high = range.high + 0.1 * range.width();
   return Plot{.panels = {panel},

@@ -13,6 +13,7 @@
 #include "analysis/theory/cooling.hpp"
 #include "analysis/theory/correlations.hpp"
 #include "campaign/paper/figure.hpp"
+#include "campaign/plot/reference_line.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -109,8 +110,7 @@ std::optional<Plot> figure_10(const Averages& averages) {
   key.legend = "{/:Italic G}_{⊥}";
   key.symbol = 6;
   panel.curves.push_back(key);
-  panel.commands.emplace_back(
-      "set arrow from graph 0, first 0 to graph 1, first 0 nohead back lw 0.7 lc rgb '#888888'");
+  panel.commands.push_back(reference_line(0));
   panel.y.low = range.low - 0.05 * range.width();
   panel.y.high = range.high + 0.05 * range.width();
   return Plot{.panels = {panel},

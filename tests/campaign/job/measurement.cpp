@@ -11,33 +11,13 @@
 
 #include "analysis/observables/moments.hpp"
 #include "analysis/theory/cooling.hpp"
-#include "campaign/state/model.hpp"
-#include "engine/initial.hpp"
+#include "campaign/job/gas.hpp"
 
 using namespace haff;
 using namespace haff::campaign;
 
-namespace {
-
-schema::Job job(double e, std::uint32_t particles = 1000) {
-  schema::Job job;
-  job.e = e;
-  job.n = 0.4;
-  job.particles = particles;
-  job.seed = 1;
-  job.observables = {"laguerre", "temperature"};
-  return job;
-}
-
-engine::Simulation gas(const schema::Job& job) {
-  return engine::Simulation({.restitution = *job.e},
-                            engine::initial_state(job.n, job.particles, job.seed));
-}
-
-}  // namespace
-
 TEST_CASE("measurement: the first sample has a temperature and no rates") {
-  auto gas = ::gas(job(0.8));
+  auto gas = campaign::gas(job(0.8));
   const auto first = measure(gas, job(0.8), 0, {});
   CHECK(first.time == 0);
   CHECK(*first.temperature == doctest::Approx(2.0 / 3).epsilon(1e-14));
@@ -49,7 +29,7 @@ TEST_CASE("measurement: the first sample has a temperature and no rates") {
 
 TEST_CASE("measurement: rates follow from two samples") {
   const auto physics = job(0.8);
-  auto gas = ::gas(physics);
+  auto gas = campaign::gas(physics);
   const auto first = measure(gas, physics, 0, {});
   gas.run_to(engine::collisions_at(2, physics.particles));
   const auto second = measure(gas, physics, 2, {&first, 1});
@@ -63,7 +43,7 @@ TEST_CASE("measurement: rates follow from two samples") {
 
 TEST_CASE("measurement: an elastic gas has no gamma_ratio") {
   const auto physics = job(1);
-  auto gas = ::gas(physics);
+  auto gas = campaign::gas(physics);
   const auto first = measure(gas, physics, 0, {});
   gas.run_to(engine::collisions_at(1, physics.particles));
   const auto second = measure(gas, physics, 1, {&first, 1});
@@ -74,14 +54,14 @@ TEST_CASE("measurement: an elastic gas has no gamma_ratio") {
 TEST_CASE("measurement: what is not asked for is not measured") {
   auto physics = job(0.8);
   physics.observables = {"temperature"};
-  auto gas = ::gas(physics);
+  auto gas = campaign::gas(physics);
   const auto sample = measure(gas, physics, 0, {});
   CHECK(sample.temperature);
   CHECK_FALSE(sample.a2);
 }
 
 TEST_CASE("measurement: two samples at one instant have no rates between them") {
-  auto gas = ::gas(job(0.8));
+  auto gas = campaign::gas(job(0.8));
   const auto first = measure(gas, job(0.8), 0, {});
   const auto second = measure(gas, job(0.8), 1e-6, {&first, 1});
   CHECK_FALSE(second.collision_rate);
@@ -90,7 +70,7 @@ TEST_CASE("measurement: two samples at one instant have no rates between them") 
 
 TEST_CASE("measurement: temperature in true units however far the gas has cooled") {
   const auto physics = job(0.5, 108);
-  auto gas = ::gas(physics);
+  auto gas = campaign::gas(physics);
   gas.run_to(engine::collisions_at(300, physics.particles));
   REQUIRE(gas.exponent() != 0);
   const auto sample = measure(gas, physics, 300, {});
@@ -135,7 +115,7 @@ TEST_CASE("measurement: no column depends on how often samples are taken") {
   // trapezoidal rule would be off by 1.9 % and 7.8 %.
   auto physics = job(0.8, 4000);
   // From elastic equilibrium: while a lattice melts, no smooth curve is to be found.
-  auto elastic = ::gas(job(1, 4000));
+  auto elastic = campaign::gas(job(1, 4000));
   elastic.run_to(engine::collisions_at(20, physics.particles));
   const engine::State start = engine::restarted(elastic.state());
   const auto taken = [&](double every) {
@@ -200,7 +180,7 @@ TEST_CASE("measurement: rough spheres have a temperature of rotation, no tau_c")
   CHECK_FALSE(later.temperature_1);
   CHECK_FALSE(results({first, later}, physics).tau_c);
 
-  auto smooth = ::gas(job(0.8));
+  auto smooth = campaign::gas(job(0.8));
   CHECK_FALSE(measure(smooth, job(0.8), 0, {}).rotational_temperature);
 }
 

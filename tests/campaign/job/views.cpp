@@ -10,30 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "campaign/job/gas.hpp"
 #include "campaign/job/measurement.hpp"
-#include "campaign/state/model.hpp"
-#include "engine/initial.hpp"
 
 using namespace haff;
 using namespace haff::campaign;
 
 namespace {
-
-schema::Job job(double e, std::uint32_t particles = 1000) {
-  schema::Job job;
-  job.e = e;
-  job.n = 0.4;
-  job.particles = particles;
-  job.seed = 1;
-  job.observables = {"laguerre", "temperature"};
-  return job;
-}
-
-engine::Simulation gas(const schema::Job& job) {
-  const engine::Model model = model_of(job);
-  return engine::Simulation(
-      model, engine::initial_state(job.n, job.particles, job.seed, job.d, model.effects));
-}
 
 schema::Job job_with_views() {
   schema::Job wide = job(0.8, 4000);
@@ -55,7 +38,7 @@ std::vector<std::string> names(const Views& views) {
 
 TEST_CASE("views: profiles and fields at their times, and no others") {
   const auto physics = job_with_views();
-  const auto gas = ::gas(physics);
+  const auto gas = campaign::gas(physics);
   schema::Sample sample{.tau = 10};
   using Names = std::vector<std::string>;
   CHECK(names(view(gas, physics, sample)) == Names{"rho", "G_parallel", "G_perpendicular", "S"});
@@ -74,7 +57,7 @@ TEST_CASE("views: a profile that is not listed is not taken") {
   auto physics = job_with_views();
   physics.observables = {"clusters", "temperature"};
   schema::Sample sample{.tau = 10};
-  CHECK(names(view(::gas(physics), physics, sample)).empty());
+  CHECK(names(view(campaign::gas(physics), physics, sample)).empty());
   CHECK(sample.largest_cluster);
   CHECK_FALSE(sample.correlation_trace);
 }
@@ -85,7 +68,7 @@ TEST_CASE("views: fields in true units however far the gas has cooled") {
   physics.particles = 500;
   physics.fields_at = {60};
   physics.profiles_every = 60;
-  auto gas = ::gas(physics);
+  auto gas = campaign::gas(physics);
   gas.run_to(engine::collisions_at(60, physics.particles));
   REQUIRE(gas.exponent() != 0);
   schema::Sample sample = measure(gas, physics, 60, {});
@@ -114,7 +97,7 @@ TEST_CASE("views: every observable that looks at the whole gas, in the order of 
   physics.observables = {"cluster_sizes", "energy_spectrum", "pair_distribution", "tail"};
   physics.profiles_every = 10;
   schema::Sample sample{.tau = 10};
-  const auto taken = names(view(::gas(physics), physics, sample));
+  const auto taken = names(view(campaign::gas(physics), physics, sample));
   using Names = std::vector<std::string>;
   const Names fixed{"g",         "E_perpendicular", "E_parallel",
                     "enstrophy", "cluster_sizes",   "mean_cluster"};
@@ -132,7 +115,7 @@ TEST_CASE("views: of a mixture each pair of species, and temperatures by mass") 
                          "cluster_sizes", "fields",       "structure",    "pair_distribution"};
   physics.profiles_every = 10;
   physics.fields_at = {10};
-  auto gas = ::gas(physics);
+  auto gas = campaign::gas(physics);
   gas.run_to(engine::collisions_at(10, physics.particles));
   schema::Sample sample = measure(gas, physics, 10, {});
   const auto views = view(gas, physics, sample);
