@@ -188,6 +188,7 @@ Database::~Database() {
 void Database::open_to_read() {
   unlocked_.reset();
   digests_.reset();
+  statements_.reset();
   original_.reset();
   const bool log_exists = identity_of(beside(file_, "-wal")).has_value();
   if (may_write(file_)) {
@@ -433,7 +434,9 @@ void Database::after() const {
 }
 
 void Database::must_be_of_this_version() {
-  const int version = version_of(*sqlite_);
+  Prepared statement(*this, "PRAGMA user_version");
+  statement.executeStep();
+  const int version = statement.getColumn(0).getInt();
   if (version != static_cast<int>(scripts().size()))
     throw StoreError(path_.string() + ": was brought forward to version " +
                      std::to_string(version) +

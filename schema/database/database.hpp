@@ -20,6 +20,7 @@
 #include <string>
 #include <utility>
 
+#include "schema/database/prepared.hpp"
 #include "schema/database/versions.hpp"
 #include "schema/digests/digests.hpp"
 #include "schema/error.hpp"
@@ -48,6 +49,10 @@ class Database {
   Digests& digests() {
     if (!digests_) digests_ = std::make_unique<Digests>(*sqlite_);
     return *digests_;
+  }
+  PreparedStatements& statements() {
+    if (!statements_) statements_ = std::make_unique<PreparedStatements>(*sqlite_);
+    return *statements_;
   }
   // The store as it is in the file: sqlite() may be a copy of it that was brought forward.
   SQLite::Database& original() { return original_ ? *original_ : *sqlite_; }
@@ -145,9 +150,10 @@ class Database {
 
   std::filesystem::path path_, file_;
   std::unique_ptr<SQLite::Database> sqlite_;
-  std::unique_ptr<Digests> digests_;            // of sqlite_
-  std::unique_ptr<SQLite::Database> original_;  // of an older version, or none
-  std::unique_ptr<SQLite::Database> copier_;    // of the log
+  std::unique_ptr<Digests> digests_;                // of sqlite_
+  std::unique_ptr<PreparedStatements> statements_;  // of sqlite_
+  std::unique_ptr<SQLite::Database> original_;      // of an older version, or none
+  std::unique_ptr<SQLite::Database> copier_;        // of the log
   std::optional<FileIdentity> file_identity_, log_identity_;
   std::int64_t copied_bytes_ = 0;  // of the file, when the log was last copied into it
   bool writes_ = false;

@@ -51,7 +51,7 @@ std::optional<Disagreement> disagreement(const Sample& first, const Sample& seco
 }
 
 std::vector<Sample> samples_of(Database& database, std::int64_t job_id) {
-  SQLite::Statement row(database.sqlite(), "SELECT * FROM samples WHERE job_id = ? ORDER BY tau");
+  Prepared row(database, "SELECT * FROM samples WHERE job_id = ? ORDER BY tau");
   row.bind(1, job_id);
   std::vector<Sample> samples;
   while (row.executeStep()) samples.push_back(sample(row));
@@ -85,7 +85,7 @@ void must_agree(Database& database, std::int64_t job_id, const std::vector<Sampl
 }  // namespace
 
 void must_agree(Database& database, std::int64_t job_id, const Sample& again) {
-  SQLite::Statement row(database.sqlite(), "SELECT * FROM samples WHERE job_id = ? AND tau = ?");
+  Prepared row(database, "SELECT * FROM samples WHERE job_id = ? AND tau = ?");
   row.bind(1, job_id);
   row.bind(2, again.tau);
   row.executeStep();
@@ -98,7 +98,7 @@ void must_agree(Database& database, std::int64_t job_id, const Sample& again) {
 
 // Jobs of one gas start from one equilibration, so that they are found by its index, and few.
 void must_agree_with_same_physics(Database& database, std::int64_t job_id) {
-  SQLite::Statement others(database.sqlite(), R"(
+  Prepared others(database, R"(
     SELECT other.job_id, other.sample_every = own.sample_every
     FROM jobs AS own JOIN jobs AS other ON other.equilibration_id = own.equilibration_id
     WHERE own.job_id = ? AND other.job_id <> own.job_id AND other.status = 'done'

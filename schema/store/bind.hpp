@@ -14,7 +14,8 @@ namespace haff::schema {
 inline const std::string now = "strftime('%Y-%m-%dT%H:%M:%fZ', 'now')";
 
 // NULL if there is no value.
-inline void bind(SQLite::Statement& statement, const char* name, std::optional<double> value) {
+inline void bind_optional(SQLite::Statement& statement, const char* name,
+                          std::optional<double> value) {
   if (value)
     statement.bind(name, *value);
   else

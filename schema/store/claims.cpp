@@ -30,7 +30,7 @@ void bind_fit(SQLite::Statement& statement, const std::optional<Fit>& fit) {
 
 std::optional<Claim> claim_first(Database& database, const std::string& select, const Owner& owner,
                                  const std::string& code_version, const std::optional<Fit>& fit) {
-  SQLite::Statement next(database.sqlite(), select);
+  Prepared next(database, select);
   bind_fit(next, fit);
   std::int64_t job_id = 0;
   do {
@@ -40,13 +40,14 @@ std::optional<Claim> claim_first(Database& database, const std::string& select, 
     next.reset();
   } while (!is_as_written(database, job_id));
 
-  SQLite::Statement statement(database.sqlite(), R"(
+  Prepared statement(database, R"(
     UPDATE jobs SET status = 'running', lease = lease + 1, host = :host,
                     owner_boot_id = :boot_id, owner_pid = :pid, owner_started = :started,
                     code_version = :code_version, renewed = )" +
-                                                     now + R"(,
-                    started = coalesce(started, )" + now +
-                                                     R"()
+                                   now + R"(,
+                    started = coalesce(started, )" +
+                                   now +
+                                   R"()
     WHERE job_id = :job_id
     RETURNING *)");
   statement.bind(":host", owner.host);
@@ -80,14 +81,14 @@ std::optional<Claim> Store::claim(const Owner& owner, const std::string& code_ve
 void Store::progress(const Lease& lease, const Progress& progress) {
   database().transaction([&] {
     must_hold(database(), lease);
-    note_progress(database().sqlite(), lease, progress);
+    note_progress(database(), lease, progress);
   });
 }
 
 Status Store::fail(const Lease& lease, const std::string& error, bool again) {
   return database().transaction([&] {
     if (!is_held(database(), lease)) return Status::failed;
-    SQLite::Statement statement(database().sqlite(), R"(
+    Prepared statement(database(), R"(
       UPDATE jobs SET attempts = attempts + 1, error = :error WHERE job_id = :job_id
       RETURNING attempts)");
     statement.bind(":error", printable(error));
@@ -95,29 +96,28 @@ Status Store::fail(const Lease& lease, const std::string& error, bool again) {
     statement.executeStep();
     const bool last = !again || integer(statement, "attempts") >= max_attempts;
     const Status status = last ? Status::failed : Status::pending;
-    leave(database().sqlite(), lease, status);
+    leave(database(), lease, status);
     return status;
   });
 }
 
 void Store::release(const Lease& lease) {
   database().transaction([&] {
-    if (is_held(database(), lease)) leave(database().sqlite(), lease, Status::pending);
+    if (is_held(database(), lease)) leave(database(), lease, Status::pending);
   });
 }
 
 bool Store::reclaim(const Lease& lease) {
   return database().transaction([&] {
-    const bool held = holds(database().sqlite(), lease);
-    if (held && is_as_written(database(), lease.job_id))
-      leave(database().sqlite(), lease, Status::pending);
+    const bool held = holds(database(), lease);
+    if (held && is_as_written(database(), lease.job_id)) leave(database(), lease, Status::pending);
     return held;
   });
 }
 
 std::int64_t Store::retry_failed() {
   return database().transaction([&] {
-    SQLite::Statement statement(database().sqlite(), R"(
+    Prepared statement(database(), R"(
       UPDATE jobs SET status = 'pending', attempts = 0, finished = NULL WHERE job_id = ?)");
     std::int64_t reopened = 0;
     for (const std::int64_t job_id :

@@ -38,9 +38,8 @@ void insert(Database& database, const Lease& lease, const std::vector<Sample>& s
     names += std::string(", ") + column.name;
     places += ", ?";
   }
-  SQLite::Statement statement(database.sqlite(),
-                              "INSERT INTO samples (" + names + ") VALUES (" + places +
-                                  ") ON CONFLICT DO NOTHING RETURNING " + table.columns());
+  Prepared statement(database, "INSERT INTO samples (" + names + ") VALUES (" + places +
+                                   ") ON CONFLICT DO NOTHING RETURNING " + table.columns());
   for (const Sample& sample : samples) {
     must_be_finite(lease, sample);
     statement.reset();
@@ -65,11 +64,10 @@ void insert(Database& database, const Lease& lease, const std::vector<Sample>& s
 void insert(Database& database, const Lease& lease, const std::vector<Profile>& profiles) {
   if (profiles.empty()) return;
   const DigestedTable& table = database.digests().table(Part::profiles);
-  SQLite::Statement statement(
-      database.sqlite(),
-      "INSERT INTO profiles (job_id, name, tau, x, value) VALUES (?, ?, ?, ?, ?) "
-      "ON CONFLICT DO NOTHING RETURNING " +
-          table.columns());
+  Prepared statement(database,
+                     "INSERT INTO profiles (job_id, name, tau, x, value) VALUES (?, ?, ?, ?, ?) "
+                     "ON CONFLICT DO NOTHING RETURNING " +
+                         table.columns());
   for (const Profile& profile : profiles) {
     if (profile.x.size() != profile.value.size())
       throw std::logic_error("the profile " + profile.name + " has not as many values as places");
@@ -94,11 +92,10 @@ void insert(Database& database, const Lease& lease, const std::vector<Field>& fi
   static_assert(std::endian::native == std::endian::little, "the store holds little-endian reals");
   if (fields.empty()) return;
   const DigestedTable& table = database.digests().table(Part::fields);
-  SQLite::Statement statement(
-      database.sqlite(),
-      "INSERT INTO fields (job_id, name, tau, cells, components, box, data) "
-      "VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING RETURNING " +
-          table.columns());
+  Prepared statement(database,
+                     "INSERT INTO fields (job_id, name, tau, cells, components, box, data) "
+                     "VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING RETURNING " +
+                         table.columns());
   for (const Field& field : fields) {
     statement.reset();
     statement.bind(1, lease.job_id);
@@ -114,14 +111,14 @@ void insert(Database& database, const Lease& lease, const std::vector<Field>& fi
   }
 }
 
-void replace(SQLite::Database& sqlite, const Lease& lease, const Checkpoint& checkpoint,
+void replace(Database& database, const Lease& lease, const Checkpoint& checkpoint,
              std::uint64_t sum) {
-  SQLite::Statement drop(sqlite, "DELETE FROM checkpoint_chunks WHERE job_id = ?");
+  Prepared drop(database, "DELETE FROM checkpoint_chunks WHERE job_id = ?");
   drop.bind(1, lease.job_id);
   drop.exec();
 
-  SQLite::Statement header(
-      sqlite,
+  Prepared header(
+      database,
       "INSERT OR REPLACE INTO checkpoints (job_id, tau, collisions, bytes, checksum, created) "
       "VALUES (?, ?, ?, ?, ?, " +
           now + ")");
@@ -132,8 +129,8 @@ void replace(SQLite::Database& sqlite, const Lease& lease, const Checkpoint& che
   header.bind(5, static_cast<std::int64_t>(sum));
   header.exec();
 
-  SQLite::Statement insert(
-      sqlite, "INSERT INTO checkpoint_chunks (job_id, position, bytes) VALUES (?, ?, ?)");
+  Prepared insert(database,
+                  "INSERT INTO checkpoint_chunks (job_id, position, bytes) VALUES (?, ?, ?)");
   const std::span<const std::byte> state(checkpoint.state);
   for (std::size_t begin = 0; begin < state.size(); begin += chunk_bytes) {
     const auto chunk = state.subspan(begin, std::min(chunk_bytes, state.size() - begin));
@@ -144,14 +141,13 @@ void replace(SQLite::Database& sqlite, const Lease& lease, const Checkpoint& che
     insert.exec();
   }
 
-  SQLite::Statement progress(sqlite,
-                             "UPDATE jobs SET attempts = 0, starts_over = 0 WHERE job_id = ?");
+  Prepared progress(database, "UPDATE jobs SET attempts = 0, starts_over = 0 WHERE job_id = ?");
   progress.bind(1, lease.job_id);
   progress.exec();
 }
 
-void replace(SQLite::Database& sqlite, const Lease& lease, const Invariants& invariants) {
-  SQLite::Statement statement(sqlite, R"(
+void replace(Database& database, const Lease& lease, const Invariants& invariants) {
+  Prepared statement(database, R"(
     INSERT OR REPLACE INTO invariants
       (job_id, largest_overlap, past_events, unresolved_collisions, energy_mismatch,
        momentum_removed)
@@ -166,8 +162,8 @@ void replace(SQLite::Database& sqlite, const Lease& lease, const Invariants& inv
   statement.exec();
 }
 
-void note_physics(SQLite::Database& sqlite, const Lease& lease, int physics_version) {
-  SQLite::Statement statement(sqlite, "UPDATE jobs SET physics_version = ? WHERE job_id = ?");
+void note_physics(Database& database, const Lease& lease, int physics_version) {
+  Prepared statement(database, "UPDATE jobs SET physics_version = ? WHERE job_id = ?");
   statement.bind(1, physics_version);
   statement.bind(2, lease.job_id);
   statement.exec();
@@ -186,10 +182,10 @@ class Entry {
     insert(database, lease_, commit_.samples);
     insert(database, lease_, commit_.profiles);
     insert(database, lease_, commit_.fields);
-    if (commit_.checkpoint) replace(database.sqlite(), lease_, *commit_.checkpoint, sum_);
-    if (commit_.invariants) replace(database.sqlite(), lease_, *commit_.invariants);
-    if (commit_.physics_version) note_physics(database.sqlite(), lease_, *commit_.physics_version);
-    note_progress(database.sqlite(), lease_, commit_.progress);
+    if (commit_.checkpoint) replace(database, lease_, *commit_.checkpoint, sum_);
+    if (commit_.invariants) replace(database, lease_, *commit_.invariants);
+    if (commit_.physics_version) note_physics(database, lease_, *commit_.physics_version);
+    note_progress(database, lease_, commit_.progress);
   }
 
  private:
@@ -198,25 +194,25 @@ class Entry {
   std::uint64_t sum_ = 0;
 };
 
-void replace(SQLite::Database& sqlite, const Lease& lease, const Results& results) {
-  SQLite::Statement statement(sqlite,
-                              "INSERT OR REPLACE INTO results (job_id, tau_c, time_c) "
-                              "VALUES (:job_id, :tau_c, :time_c)");
+void replace(Database& database, const Lease& lease, const Results& results) {
+  Prepared statement(database,
+                     "INSERT OR REPLACE INTO results (job_id, tau_c, time_c) "
+                     "VALUES (:job_id, :tau_c, :time_c)");
   statement.bind(":job_id", lease.job_id);
-  bind(statement, ":tau_c", results.tau_c);
-  bind(statement, ":time_c", results.time_c);
+  bind_optional(statement, ":tau_c", results.tau_c);
+  bind_optional(statement, ":time_c", results.time_c);
   statement.exec();
 }
 
 // A job that has come to its end from its start, without a new state on the way: the damaged one
 // has served its time.
-void drop_unused_state(SQLite::Database& sqlite, const Lease& lease) {
+void drop_unused_state(Database& database, const Lease& lease) {
   for (const char* sql : {"DELETE FROM checkpoint_chunks WHERE job_id IN "
                           "(SELECT job_id FROM jobs WHERE job_id = ? AND starts_over)",
                           "DELETE FROM checkpoints WHERE job_id IN "
                           "(SELECT job_id FROM jobs WHERE job_id = ? AND starts_over)",
                           "UPDATE jobs SET starts_over = 0 WHERE job_id = ?"}) {
-    SQLite::Statement statement(sqlite, sql);
+    Prepared statement(database, sql);
     statement.bind(1, lease.job_id);
     statement.exec();
   }
@@ -233,21 +229,20 @@ Status Store::finish(const Lease& lease, const Commit& commit,
                      const std::optional<Results>& results, double tau_max) {
   const Entry entry(lease, commit);
   return database().transaction([&] {
-    SQLite::Database& sqlite = database().sqlite();
     entry.write(database());
     must_agree_with_same_physics(database(), lease.job_id);
-    if (results) replace(sqlite, lease, *results);
+    if (results) replace(database(), lease, *results);
 
-    SQLite::Statement row(sqlite, "SELECT tau_max FROM jobs WHERE job_id = ?");
+    Prepared row(database(), "SELECT tau_max FROM jobs WHERE job_id = ?");
     row.bind(1, lease.job_id);
     row.executeStep();
     const bool extended = real(row, "tau_max") > tau_max;
     const Status status = extended ? Status::pending : Status::done;
-    drop_unused_state(sqlite, lease);
-    leave(sqlite, lease, status);
-    if (!extended) note_progress(sqlite, lease, commit.progress);
+    drop_unused_state(database(), lease);
+    leave(database(), lease, status);
+    if (!extended) note_progress(database(), lease, commit.progress);
 
-    SQLite::Statement clear(sqlite, "UPDATE jobs SET error = NULL, attempts = 0 WHERE job_id = ?");
+    Prepared clear(database(), "UPDATE jobs SET error = NULL, attempts = 0 WHERE job_id = ?");
     clear.bind(1, lease.job_id);
     clear.exec();
     return status;
@@ -257,16 +252,15 @@ Status Store::finish(const Lease& lease, const Commit& commit,
 void Store::collapse(const Lease& lease, const Commit& commit, const std::string& what) {
   const Entry entry(lease, commit);
   database().transaction([&] {
-    SQLite::Database& sqlite = database().sqlite();
     entry.write(database());
     must_agree_with_same_physics(database(), lease.job_id);
-    SQLite::Statement statement(sqlite, "UPDATE jobs SET error = ? WHERE job_id = ?");
+    Prepared statement(database(), "UPDATE jobs SET error = ? WHERE job_id = ?");
     statement.bind(1, printable(what));
     statement.bind(2, lease.job_id);
     statement.exec();
-    drop_unused_state(sqlite, lease);
-    leave(sqlite, lease, Status::collapsed);
-    note_progress(sqlite, lease, commit.progress);
+    drop_unused_state(database(), lease);
+    leave(database(), lease, Status::collapsed);
+    note_progress(database(), lease, commit.progress);
   });
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 // Nothing works on this job any more. What its row said may be seen, and stays known as wrong.
 void condemn(Database& database, std::int64_t job_id, const std::string& why) {
-  SQLite::Statement statement(database.sqlite(), R"(
+  Prepared statement(database, R"(
     UPDATE jobs SET status = 'failed', error = ?, owner_boot_id = NULL, owner_pid = NULL,
                     owner_started = NULL, renewed = NULL
     WHERE job_id = ?)");
@@ -22,27 +22,27 @@ void condemn(Database& database, std::int64_t job_id, const std::string& why) {
 
 }  // namespace
 
-bool holds(SQLite::Database& sqlite, const Lease& lease) {
-  SQLite::Statement statement(
-      sqlite, "SELECT 1 FROM jobs WHERE job_id = ? AND lease = ? AND status = 'running'");
+bool holds(Database& database, const Lease& lease) {
+  Prepared statement(database,
+                     "SELECT 1 FROM jobs WHERE job_id = ? AND lease = ? AND status = 'running'");
   statement.bind(1, lease.job_id);
   statement.bind(2, lease.token);
   return statement.executeStep();
 }
 
 void must_hold(Database& database, const Lease& lease) {
-  if (!holds(database.sqlite(), lease))
+  if (!holds(database, lease))
     throw LeaseLost(database.path().string() + ": job " + std::to_string(lease.job_id) +
                     " has passed to another worker; what this one did since its last commit is "
                     "dropped");
   database.digests().must_match(lease.job_id, Part::jobs);
 }
 
-void note_progress(SQLite::Database& sqlite, const Lease& lease, const Progress& progress) {
-  SQLite::Statement statement(sqlite,
-                              "UPDATE jobs SET tau_reached = ?, collisions = ?, cpu_seconds = ?, "
-                              "renewed = iif(status = 'running', " +
-                                  now + ", NULL) WHERE job_id = ?");
+void note_progress(Database& database, const Lease& lease, const Progress& progress) {
+  Prepared statement(database,
+                     "UPDATE jobs SET tau_reached = ?, collisions = ?, cpu_seconds = ?, "
+                     "renewed = iif(status = 'running', " +
+                         now + ", NULL) WHERE job_id = ?");
   statement.bind(1, progress.tau);
   statement.bind(2, progress.collisions);
   statement.bind(3, progress.cpu_seconds);
@@ -50,8 +50,8 @@ void note_progress(SQLite::Database& sqlite, const Lease& lease, const Progress&
   statement.exec();
 }
 
-void leave(SQLite::Database& sqlite, const Lease& lease, Status status) {
-  SQLite::Statement statement(sqlite, R"(
+void leave(Database& database, const Lease& lease, Status status) {
+  Prepared statement(database, R"(
     UPDATE jobs SET
       status = :status,
       owner_boot_id = NULL, owner_pid = NULL, owner_started = NULL, renewed = NULL,
@@ -60,7 +60,7 @@ void leave(SQLite::Database& sqlite, const Lease& lease, Status status) {
       collisions = iif(starts_over, 0,
                        coalesce((SELECT collisions FROM checkpoints WHERE job_id = :job_id), 0)),
       finished = iif(:status = 'pending', NULL, )" +
-                                          now + R"()
+                                   now + R"()
     WHERE job_id = :job_id)");
   statement.bind(":status", std::string(name(status)));
   statement.bind(":job_id", lease.job_id);
@@ -78,7 +78,7 @@ bool is_as_written(Database& database, std::int64_t job_id) {
 }
 
 bool is_held(Database& database, const Lease& lease) {
-  if (!holds(database.sqlite(), lease)) must_hold(database, lease);
+  if (!holds(database, lease)) must_hold(database, lease);
   return is_as_written(database, lease.job_id);
 }
 

@@ -13,7 +13,7 @@
 namespace haff::schema {
 
 // Whether the job is held under this lease.
-bool holds(SQLite::Database& sqlite, const Lease& lease);
+bool holds(Database& database, const Lease& lease);
 
 // Throws LeaseLost if it is not, Damage if the row of the job is not as it was written.
 void must_hold(Database& database, const Lease& lease);
@@ -26,9 +26,9 @@ bool is_as_written(Database& database, std::int64_t job_id);
 bool is_held(Database& database, const Lease& lease);
 
 // Notes how far the job is.
-void note_progress(SQLite::Database& sqlite, const Lease& lease, const Progress& progress);
+void note_progress(Database& database, const Lease& lease, const Progress& progress);
 
 // The end of a lease. The job is where its last checkpoint is.
-void leave(SQLite::Database& sqlite, const Lease& lease, Status status);
+void leave(Database& database, const Lease& lease, Status status);
 
 }  // namespace haff::schema

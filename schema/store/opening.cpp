@@ -28,8 +28,8 @@ int Store::upgrade(const std::filesystem::path& path, const std::vector<Lease>& 
     const int before = version_of(sqlite);
     database.bring_forward([&] {
       for (const Lease& lease : dead)
-        if (holds(sqlite, lease) && is_as_written(database, lease.job_id))
-          leave(sqlite, lease, Status::pending);
+        if (holds(database, lease) && is_as_written(database, lease.job_id))
+          leave(database, lease, Status::pending);
       SQLite::Statement running(sqlite, "SELECT * FROM jobs WHERE status = 'running'");
       if (running.executeStep())
         throw StoreError(path.string() + ": job " + std::to_string(integer(running, "job_id")) +

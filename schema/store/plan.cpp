@@ -44,7 +44,7 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
   statement.bind(":identity", identity(job));
   statement.bind(":kind", std::string(name(job.kind)));
   statement.bind(":d", job.d);
-  bind(statement, ":e", job.e);
+  bind_optional(statement, ":e", job.e);
   statement.bind(":n", job.n);
   statement.bind(":particles", job.particles);
   statement.bind(":seed", static_cast<std::int64_t>(job.seed));
@@ -52,12 +52,12 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
   statement.bind(":sample_every", job.sample_every);
   statement.bind(":effects", job.effects.text());
   statement.bind(":observables", observables_text(job.observables));
-  bind(statement, ":profiles_every", job.profiles_every);
+  bind_optional(statement, ":profiles_every", job.profiles_every);
   if (!job.fields_at.empty()) statement.bind(":fields_at", fields_at_text(job.fields_at));
   statement.bind(":tau_max", planned.tau_max);
   statement.bind(":checkpoint_every", planned.checkpoint_every);
   if (const auto id = equilibration_id(sqlite, job)) statement.bind(":equilibration_id", *id);
-  bind(statement, ":expected_cpu_seconds", planned.expected_cpu_seconds);
+  bind_optional(statement, ":expected_cpu_seconds", planned.expected_cpu_seconds);
   statement.exec();
 }
 
@@ -71,7 +71,7 @@ void extend(SQLite::Database& sqlite, const Planned& planned) {
   statement.bind(":identity", identity(planned.job));
   statement.bind(":tau_max", planned.tau_max);
   statement.bind(":checkpoint_every", planned.checkpoint_every);
-  bind(statement, ":expected_cpu_seconds", planned.expected_cpu_seconds);
+  bind_optional(statement, ":expected_cpu_seconds", planned.expected_cpu_seconds);
   statement.exec();
 }
 

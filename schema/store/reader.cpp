@@ -116,7 +116,7 @@ std::vector<JobRow> Reader::jobs() const {
 
 JobRow Reader::job(std::int64_t job_id) const {
   return database_->guarded([&] {
-    SQLite::Statement statement(database_->sqlite(), "SELECT * FROM jobs WHERE job_id = ?");
+    Prepared statement(*database_, "SELECT * FROM jobs WHERE job_id = ?");
     statement.bind(1, job_id);
     if (!statement.executeStep())
       throw NameError(path().string() + ": there is no job " + std::to_string(job_id));
@@ -126,7 +126,7 @@ JobRow Reader::job(std::int64_t job_id) const {
 
 std::optional<std::int64_t> Reader::find(const Job& job) const {
   return database_->guarded([&]() -> std::optional<std::int64_t> {
-    SQLite::Statement statement(database_->sqlite(), "SELECT job_id FROM jobs WHERE identity = ?");
+    Prepared statement(*database_, "SELECT job_id FROM jobs WHERE identity = ?");
     statement.bind(1, identity(job));
     if (!statement.executeStep()) return std::nullopt;
     return integer(statement, "job_id");
@@ -135,8 +135,7 @@ std::optional<std::int64_t> Reader::find(const Job& job) const {
 
 std::vector<RunningJob> Reader::running() const {
   return database_->guarded([&] {
-    SQLite::Statement statement(database_->sqlite(),
-                                "SELECT * FROM jobs WHERE status = 'running' ORDER BY job_id");
+    Prepared statement(*database_, "SELECT * FROM jobs WHERE status = 'running' ORDER BY job_id");
     std::vector<RunningJob> jobs;
     while (statement.executeStep())
       jobs.push_back({.lease = {integer(statement, "job_id"), integer(statement, "lease")},
@@ -151,9 +150,8 @@ std::vector<RunningJob> Reader::running() const {
 
 bool Reader::has_claimable(const std::optional<Fit>& fit) const {
   return database_->guarded([&] {
-    SQLite::Statement statement(database_->sqlite(),
-                                fmt::format("SELECT 1 {}AND {} <= :seconds LIMIT 1",
-                                            from_claimable_jobs, seconds_to_next_tau));
+    Prepared statement(*database_, fmt::format("SELECT 1 {}AND {} <= :seconds LIMIT 1",
+                                               from_claimable_jobs, seconds_to_next_tau));
     statement.bind(":seconds", fit ? fit->seconds : std::numeric_limits<double>::max());
     statement.bind(":tau", fit ? fit->tau : 0);
     return statement.executeStep();
@@ -162,9 +160,8 @@ bool Reader::has_claimable(const std::optional<Fit>& fit) const {
 
 std::optional<double> Reader::least_seconds_to(double tau) const {
   return database_->guarded([&]() -> std::optional<double> {
-    SQLite::Statement statement(
-        database_->sqlite(),
-        fmt::format("SELECT min({}) AS seconds {}", seconds_to_next_tau, from_claimable_jobs));
+    Prepared statement(*database_, fmt::format("SELECT min({}) AS seconds {}", seconds_to_next_tau,
+                                               from_claimable_jobs));
     statement.bind(":tau", tau);
     if (!statement.executeStep()) return std::nullopt;
     return optional_real(statement, "seconds");
@@ -172,8 +169,11 @@ std::optional<double> Reader::least_seconds_to(double tau) const {
 }
 
 std::int64_t Reader::change_counter() const {
-  return database_->guarded(
-      [&] { return database_->sqlite().execAndGet("PRAGMA data_version").getInt64(); });
+  return database_->guarded([&] {
+    Prepared row(*database_, "PRAGMA data_version");
+    row.executeStep();
+    return row.getColumn(0).getInt64();
+  });
 }
 
 // The rows are read in the same snapshot.
@@ -190,8 +190,7 @@ std::vector<Sample> Reader::samples(std::int64_t job_id) const {
 
 std::vector<Sample> Reader::samples_unchecked(std::int64_t job_id) const {
   return database_->guarded([&] {
-    SQLite::Statement statement(database_->sqlite(),
-                                "SELECT * FROM samples WHERE job_id = ? ORDER BY tau");
+    Prepared statement(*database_, "SELECT * FROM samples WHERE job_id = ? ORDER BY tau");
     statement.bind(1, job_id);
     std::vector<Sample> samples;
     while (statement.executeStep()) samples.push_back(sample(statement));
@@ -201,8 +200,8 @@ std::vector<Sample> Reader::samples_unchecked(std::int64_t job_id) const {
 
 std::optional<Sample> Reader::last_sample(std::int64_t job_id, double tau) const {
   return database_->guarded([&]() -> std::optional<Sample> {
-    SQLite::Statement statement(
-        database_->sqlite(),
+    Prepared statement(
+        *database_,
         "SELECT * FROM samples WHERE job_id = ? AND tau <= ? ORDER BY tau DESC LIMIT 1");
     statement.bind(1, job_id);
     statement.bind(2, tau);
@@ -214,8 +213,8 @@ std::optional<Sample> Reader::last_sample(std::int64_t job_id, double tau) const
 std::vector<Profile> Reader::profiles(std::int64_t job_id, const std::string& name) const {
   return database_->snapshot([&] {
     must_match(job_id, Part::profiles);
-    SQLite::Statement points(
-        database_->sqlite(),
+    Prepared points(
+        *database_,
         "SELECT tau, x, value FROM profiles WHERE job_id = ? AND name = ? ORDER BY tau, x");
     points.bind(1, job_id);
     points.bind(2, name);
@@ -234,9 +233,9 @@ std::vector<Profile> Reader::profiles(std::int64_t job_id, const std::string& na
 std::optional<Field> Reader::field(std::int64_t job_id, const std::string& name, double tau) const {
   return database_->snapshot([&]() -> std::optional<Field> {
     must_match(job_id, Part::fields);
-    SQLite::Statement row(database_->sqlite(),
-                          "SELECT fields.*, d FROM fields JOIN jobs USING (job_id) "
-                          "WHERE job_id = ? AND name = ? AND fields.tau = ?");
+    Prepared row(*database_,
+                 "SELECT fields.*, d FROM fields JOIN jobs USING (job_id) "
+                 "WHERE job_id = ? AND name = ? AND fields.tau = ?");
     row.bind(1, job_id);
     row.bind(2, name);
     row.bind(3, tau);
@@ -247,8 +246,7 @@ std::optional<Field> Reader::field(std::int64_t job_id, const std::string& name,
 
 std::vector<FieldName> Reader::fields(std::int64_t job_id) const {
   return database_->guarded([&] {
-    SQLite::Statement row(database_->sqlite(),
-                          "SELECT name, tau FROM fields WHERE job_id = ? ORDER BY name, tau");
+    Prepared row(*database_, "SELECT name, tau FROM fields WHERE job_id = ? ORDER BY name, tau");
     row.bind(1, job_id);
     std::vector<FieldName> names;
     while (row.executeStep()) names.push_back({text(row, "name"), not_negative(row, "tau")});
@@ -259,7 +257,7 @@ std::vector<FieldName> Reader::fields(std::int64_t job_id) const {
 std::optional<Results> Reader::results(std::int64_t job_id) const {
   return database_->snapshot([&]() -> std::optional<Results> {
     must_match(job_id, Part::results);
-    SQLite::Statement statement(database_->sqlite(), "SELECT * FROM results WHERE job_id = ?");
+    Prepared statement(*database_, "SELECT * FROM results WHERE job_id = ?");
     statement.bind(1, job_id);
     if (!statement.executeStep()) return std::nullopt;
     return Results{optional_real(statement, "tau_c"), optional_real(statement, "time_c")};
@@ -269,7 +267,7 @@ std::optional<Results> Reader::results(std::int64_t job_id) const {
 std::optional<Invariants> Reader::invariants(std::int64_t job_id) const {
   return database_->snapshot([&]() -> std::optional<Invariants> {
     must_match(job_id, Part::invariants);
-    SQLite::Statement row(database_->sqlite(), "SELECT * FROM invariants WHERE job_id = ?");
+    Prepared row(*database_, "SELECT * FROM invariants WHERE job_id = ?");
     row.bind(1, job_id);
     if (!row.executeStep()) return std::nullopt;
     return Invariants{.largest_overlap = real(row, "largest_overlap"),
@@ -306,9 +304,9 @@ std::vector<std::string> Reader::wrong_tables() const {
 
 void Reader::must_match_digests(const std::vector<Part>& parts) const {
   database_->snapshot([&] {
-    SQLite::Statement averaged(database_->sqlite(),
-                               "SELECT job_id FROM jobs WHERE kind = 'cooling' AND status = 'done' "
-                               "ORDER BY job_id");
+    Prepared averaged(*database_,
+                      "SELECT job_id FROM jobs WHERE kind = 'cooling' AND status = 'done' "
+                      "ORDER BY job_id");
     while (averaged.executeStep()) {
       // A flipped bit of its e would take it into another mean.
       must_match(integer(averaged, "job_id"), Part::jobs);
@@ -328,11 +326,10 @@ std::vector<Target> Reader::targets() const {
   return database_->snapshot([&] {
     for (const char* table : {"targets", "target_predictions"})
       database_->digests().must_match_table(table);
-    SQLite::Statement row(
-        database_->sqlite(),
-        "SELECT * FROM targets "
-        "LEFT JOIN target_predictions USING (series, quantity, tau_from, tau_to, se) "
-        "ORDER BY series, quantity, tau_from, tau_to");
+    Prepared row(*database_,
+                 "SELECT * FROM targets "
+                 "LEFT JOIN target_predictions USING (series, quantity, tau_from, tau_to, se) "
+                 "ORDER BY series, quantity, tau_from, tau_to");
     std::vector<Target> targets;
     while (row.executeStep()) {
       targets.push_back({.series = text(row, "series"),
@@ -352,8 +349,7 @@ std::vector<Target> Reader::targets() const {
 
 double Reader::stored_tau(std::int64_t job_id) const {
   return database_->guarded([&] {
-    SQLite::Statement statement(database_->sqlite(),
-                                "SELECT tau FROM checkpoints WHERE job_id = ?");
+    Prepared statement(*database_, "SELECT tau FROM checkpoints WHERE job_id = ?");
     statement.bind(1, job_id);
     return statement.executeStep() ? real(statement, "tau") : 0.0;
   });
@@ -361,7 +357,7 @@ double Reader::stored_tau(std::int64_t job_id) const {
 
 std::vector<CheckpointInfo> Reader::checkpoints() const {
   return database_->guarded([&] {
-    SQLite::Statement statement(database_->sqlite(), "SELECT * FROM checkpoints ORDER BY job_id");
+    Prepared statement(*database_, "SELECT * FROM checkpoints ORDER BY job_id");
     std::vector<CheckpointInfo> infos;
     while (statement.executeStep()) infos.push_back(checkpoint_info(statement));
     return infos;
@@ -374,14 +370,14 @@ std::optional<Checkpoint> Reader::checkpoint(std::int64_t job_id) const {
                   " is damaged: " + what);
   };
   return database_->snapshot([&]() -> std::optional<Checkpoint> {
-    SQLite::Statement header(database_->sqlite(), "SELECT * FROM checkpoints WHERE job_id = ?");
+    Prepared header(*database_, "SELECT * FROM checkpoints WHERE job_id = ?");
     header.bind(1, job_id);
     if (!header.executeStep()) return std::nullopt;
     must_match(job_id, Part::checkpoints);
     const CheckpointInfo info = checkpoint_info(header);
-    SQLite::Statement total(database_->sqlite(),
-                            "SELECT total(length(bytes)) AS size FROM checkpoint_chunks "
-                            "WHERE job_id = ? AND typeof(bytes) = 'blob'");
+    Prepared total(*database_,
+                   "SELECT total(length(bytes)) AS size FROM checkpoint_chunks "
+                   "WHERE job_id = ? AND typeof(bytes) = 'blob'");
     total.bind(1, job_id);
     total.executeStep();
     if (const double size = real(total, "size"); size != static_cast<double>(info.bytes))
@@ -390,8 +386,8 @@ std::optional<Checkpoint> Reader::checkpoint(std::int64_t job_id) const {
 
     Checkpoint checkpoint{.tau = info.tau, .collisions = info.collisions, .state = {}};
     checkpoint.state.reserve(static_cast<std::size_t>(info.bytes));  // never two halves of it
-    SQLite::Statement chunks(
-        database_->sqlite(),
+    Prepared chunks(
+        *database_,
         "SELECT position, bytes FROM checkpoint_chunks WHERE job_id = ? ORDER BY position");
     chunks.bind(1, job_id);
     for (std::int64_t position = 0; chunks.executeStep(); ++position) {
@@ -446,7 +442,7 @@ std::vector<std::string> Reader::faults() const {
                             "FROM pragma_foreign_key_check"})
     try {
       database_->guarded([&] {
-        SQLite::Statement lines(database_->sqlite(), check);
+        Prepared lines(*database_, check);
         while (lines.executeStep()) faults.push_back(lines.getColumn(0).getString());
       });
     } catch (const Damage& damage) {
