@@ -23,9 +23,11 @@ std::string name_of(const schema::Store& store, const schema::Reader& shard) {
 }
 
 void must_be_sound(const schema::Reader& shard) {
-  const auto faults = shard.faults();
+  const schema::Faults faults = shard.faults();
   if (!faults.empty())
-    throw schema::Damage(fmt::format("{}: is damaged: {}", shard.path().string(), faults.front()));
+    throw schema::Damage(
+        fmt::format("{}: is damaged: {}", shard.path().string(),
+                    faults.file.empty() ? faults.derived.front() : faults.file.front()));
 }
 
 }  // namespace

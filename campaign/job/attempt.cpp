@@ -85,7 +85,8 @@ bool Attempt::advance_to(std::int64_t collisions) {
     gas_->run_to(std::min({collisions, gas_->collisions() + stretch, diffusion_.next_look()}));
     if (gas_->collisions() == diffusion_.next_look()) diffusion_.look(*gas_);
     report_progress();
-    if (is_asked_to_leave() && !may_go_on_to_synchronization()) return false;
+    if (gas_->collisions() < collisions && is_asked_to_leave() && !may_go_on_to_synchronization())
+      return false;  // there, what is due is done first: a state may be stored
   }
   return true;
 }

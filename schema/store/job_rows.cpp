@@ -249,12 +249,15 @@ void drop_rows(const RowsOfJob& ours, const std::string& table) {
   statement.exec();
 }
 
-void drop_differing_rows(const RowsOfJob& ours, const RowsOfJob& theirs, Part part) {
+void drop_differing_rows(const RowsOfJob& ours, const RowsOfJob& theirs, Part part,
+                         LastDigits last_digits) {
   const Table table = table_of(ours.sqlite(), name(part));
   std::vector<std::vector<Key>> keys;
   walk(ours, theirs, table, part,
        [&](SQLite::Statement& here, const std::vector<Difference>& found) {
-         if (std::ranges::all_of(found, &Difference::is_in_last_digits)) return;
+         if (last_digits == LastDigits::may_differ &&
+             std::ranges::all_of(found, &Difference::is_in_last_digits))
+           return;
          keys.emplace_back();
          for (const std::string& key : table.key)
            keys.back().push_back(key_of(here.getColumn(key.c_str())));

@@ -52,8 +52,11 @@ std::int64_t add_and_compare_rows(const RowsOfJob& ours, const RowsOfJob& theirs
 
 void drop_rows(const RowsOfJob& ours, const std::string& table);
 
-// Drops those of our rows that differ from theirs by more than the last digits, or that they lack.
-void drop_differing_rows(const RowsOfJob& ours, const RowsOfJob& theirs, Part part);
+// Drops those of our rows that differ from theirs, or that they lack. What differs in last digits
+// alone may be another machine's.
+enum class LastDigits { may_differ, must_agree };
+void drop_differing_rows(const RowsOfJob& ours, const RowsOfJob& theirs, Part part,
+                         LastDigits last_digits);
 
 // Where the rows of a table differ, those that one of the two lacks among them, in the order of the
 // primary key.

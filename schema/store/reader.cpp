@@ -433,22 +433,8 @@ Query Reader::query(const std::string& sql) const {
   return {*database_, sql};
 }
 
-std::vector<std::string> Reader::faults() const {
-  std::vector<std::string> faults;
-  for (const char* check : {"SELECT integrity_check FROM pragma_integrity_check "
-                            "WHERE integrity_check <> 'ok'",
-                            "SELECT \"table\" || ' row ' || coalesce(rowid, '?') || "
-                            "' refers to a row that is missing in ' || parent "
-                            "FROM pragma_foreign_key_check"})
-    try {
-      database_->guarded([&] {
-        Prepared lines(*database_, check);
-        while (lines.executeStep()) faults.push_back(lines.getColumn(0).getString());
-      });
-    } catch (const Damage& damage) {
-      faults.emplace_back(damage.what());  // so bad that the check itself could not go on
-    }
-  return faults;
+Faults Reader::faults() const {
+  return faults_of(*database_);
 }
 
 }  // namespace haff::schema

@@ -17,6 +17,7 @@
 #include "schema/grid/job.hpp"
 #include "schema/grid/target.hpp"
 #include "schema/rows/measured.hpp"
+#include "schema/store/faults.hpp"
 #include "schema/store/shards.hpp"
 #include "schema/store/work.hpp"
 
@@ -149,8 +150,8 @@ class Reader {
   // The store's newest rows may be missing: it was left, or copied, without the log beside it.
   bool lacks_log() const;
 
-  // SQLite's integrity check and the foreign keys: one line a fault, none if all is sound.
-  std::vector<std::string> faults() const;
+  // What is wrong with the file itself, and with its indexes.
+  Faults faults() const;
 
  protected:
   friend class Store;  // which reads from another store when it takes over a job

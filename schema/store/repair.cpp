@@ -9,16 +9,25 @@
 
 namespace haff::schema {
 
+void Store::make_derived_anew() {
+  database().transaction([&] { schema::make_derived_anew(database()); });
+}
+
 std::int64_t Store::replace_rows(std::int64_t job_id, Part part, const Reader& other,
                                  std::int64_t job_there) {
   return database().transaction([&] {
     const RowsOfJob ours{database(), job_id}, theirs{other.database(), job_there};
+    const auto written = database().digests().stored(job_id, part);
+    const LastDigits last_digits = written && *written != database().digests().present(job_id, part)
+                                       ? LastDigits::must_agree
+                                       : LastDigits::may_differ;
     std::set<std::string> rows;
     for (const Difference& difference : schema::differences(ours, theirs, part))
-      if (!difference.is_in_last_digits) rows.insert(difference.row);
+      if (last_digits == LastDigits::must_agree || !difference.is_in_last_digits)
+        rows.insert(difference.row);
     const bool is_state = part == Part::checkpoints;
     if (is_state) drop_rows(ours, "checkpoint_chunks");
-    drop_differing_rows(ours, theirs, part);
+    drop_differing_rows(ours, theirs, part, last_digits);
     add_rows(ours, theirs, name(part));
     if (is_state) add_rows(ours, theirs, "checkpoint_chunks");
     database().digests().changed(job_id, part);

@@ -122,8 +122,11 @@ class Store : public Reader {
   // shard holds the job.
   bool restart(std::int64_t job_id);
 
+  // For a store with Faults::derived alone.
+  void make_derived_anew();
   // Where rows of this part differ from those of the other store, puts the other's in their place;
-  // the part is digested as it is then. Returns how many rows differed.
+  // the part is digested as it is then. Rows that differ in last digits alone stay, unless the
+  // digest says that they were altered. Returns how many rows were replaced.
   std::int64_t replace_rows(std::int64_t job_id, Part part, const Reader& other,
                             std::int64_t job_there);
   // This part of a job was found to be right by other means: it is digested as it is.

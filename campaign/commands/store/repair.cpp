@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -67,12 +68,12 @@ class Repair {
   }
 
   int mend() {
-    if (const auto faults = store_.faults(); !faults.empty()) {
+    if (const auto fault = fault_of_file()) {
       note(
           "{}: {}\nThe file itself is damaged, and rows that are put into it would not be safe. Go "
           "back to a backup of it, or save what can still be read with SQLite's .recover (see "
           "schema/README.md)\n",
-          path_.string(), printable(faults.front()));
+          path_.string(), printable(*fault));
       return exit_failed;
     }
     for (const std::string& table : store_.wrong_tables()) take_table_as_it_is(table);
@@ -85,6 +86,21 @@ class Repair {
          mended_ == 1 ? "" : "s", digested_, left_, left_ == 1 ? "it is" : "they are");
     if (reopened_ > 0) note("Next: {}\n", command_text("run", path_));
     return left_ == 0 ? exit_complete : exit_failed;
+  }
+
+  // Of indexes and statistics nothing is lost: they are made anew, and looked at again.
+  std::optional<std::string> fault_of_file() {
+    schema::Faults faults = store_.faults();
+    if (faults.file.empty() && !faults.derived.empty()) {
+      store_.make_derived_anew();
+      note("{}: {}; all indexes and statistics are made anew from the tables\n", path_.string(),
+           printable(faults.derived.front()));
+      ++mended_;
+      faults = store_.faults();
+      faults.file.insert(faults.file.end(), faults.derived.begin(), faults.derived.end());
+    }
+    if (faults.file.empty()) return std::nullopt;
+    return faults.file.front();
   }
 
   void take_table_as_it_is(const std::string& table) {

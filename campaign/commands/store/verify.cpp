@@ -35,6 +35,7 @@ using schema::Reader;
 // What was found, apart by what helps against it.
 struct Findings {
   std::vector<std::string> file;     // SQLite cannot read it, or finds it in disorder
+  std::vector<std::string> derived;  // indexes and statistics: the tables have all of it
   std::vector<std::string> jobs;     // rows of the table jobs that this program did not write
   std::vector<std::string> states;   // damaged checkpoints
   std::vector<std::string> rows;     // results that cannot be
@@ -46,7 +47,7 @@ struct Findings {
   std::int64_t without_digests = 0;  // jobs: no fault, but less is known of them
 
   std::size_t faults() const {
-    return file.size() + jobs.size() + states.size() + rows.size() + tables.size();
+    return file.size() + derived.size() + jobs.size() + states.size() + rows.size() + tables.size();
   }
   bool empty() const { return faults() + newer.size() + unknown.size() == 0 && !lacks_log; }
 };
@@ -119,8 +120,8 @@ void print(const std::vector<std::string>& lines) {
 }
 
 void print(const Findings& found, const std::filesystem::path& path) {
-  for (const auto* lines :
-       {&found.file, &found.tables, &found.jobs, &found.states, &found.rows, &found.newer})
+  for (const auto* lines : {&found.file, &found.derived, &found.tables, &found.jobs, &found.states,
+                            &found.rows, &found.newer})
     print(*lines);
   if (found.faults() > 0)
     say("{}: {} fault{} found\n", path.string(), found.faults(), found.faults() == 1 ? "" : "s");
@@ -139,6 +140,9 @@ void print(const Findings& found, const std::filesystem::path& path) {
   if (found.file.empty() && !(found.jobs.empty() && found.rows.empty() && found.tables.empty()))
     say("{} computes such jobs again, and puts right what differs\n",
         command_text("verify --repair", path));
+  else if (found.file.empty() && !found.derived.empty())
+    say("No row is lost. {} makes indexes and statistics anew\n",
+        command_text("verify --repair", path));
   if (!found.newer.empty())
     say("{}: a newer program wrote some of it; update campaign\n", path.string());
   for (const std::string& why : found.unknown)
@@ -148,17 +152,12 @@ void print(const Findings& found, const std::filesystem::path& path) {
 }
 
 ordered_json json_of(const Findings& found, const std::string& size) {
-  return {{"sound", found.empty()},
-          {"holds", size},
-          {"faults", found.faults()},
-          {"file", found.file},
-          {"tables", found.tables},
-          {"jobs", found.jobs},
-          {"states", found.states},
-          {"rows", found.rows},
-          {"newer", found.newer},
-          {"not_checked", found.unknown},
-          {"jobs_without_digests", found.without_digests}};
+  return {{"sound", found.empty()},       {"holds", size},
+          {"faults", found.faults()},     {"file", found.file},
+          {"indexes", found.derived},     {"tables", found.tables},
+          {"jobs", found.jobs},           {"states", found.states},
+          {"rows", found.rows},           {"newer", found.newer},
+          {"not_checked", found.unknown}, {"jobs_without_digests", found.without_digests}};
 }
 
 }  // namespace
@@ -174,7 +173,9 @@ int verify(const VerifyOptions& options) {
   try {
     const Reader store(path);
     found.lacks_log = store.lacks_log();
-    found.file = store.faults();
+    const schema::Faults faults = store.faults();
+    found.file = faults.file;
+    found.derived = faults.derived;
     look_at_tables(store, found);
     look_at_jobs(store, found);
     size = size_text(store);

@@ -60,3 +60,23 @@ TEST_CASE("stops: ten kills in a row without progress are excused, three more fa
   CHECK(attempts() == 3);
   CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'failed'") == 1);
 }
+
+TEST_CASE("stops: at a limit the gas goes on to a synchronization, however long that takes") {
+  const Folder folder;
+  plan(folder,
+       R"({"e": 0.9, "n": 0.4, "N": 200000, "seeds": 1, "equilibrate": 10, "tau_max": 20})");
+  REQUIRE(campaign(folder, {"run", "--where", "kind = 'equilibration'"}).exit_code == 0);
+  Program run(folder, {"run", "--workers", "1", "--budget", "1s"});
+  while (number(folder, "SELECT count(*) FROM jobs WHERE status = 'running'") == 0) sleep_for(5ms);
+  sleep_for(300ms);
+  // A worker that did not run for six seconds expects many more for the rest of the period, and
+  // would give up what it has if a signal asked it to stop.
+  const pid_t worker = run.workers().at(0);
+  kill(worker, SIGSTOP);
+  sleep_for(6s);
+  kill(worker, SIGCONT);
+  CHECK(run.wait().exit_code == 3);
+  CHECK(number(folder,
+               "SELECT count(*) FROM checkpoints JOIN jobs USING (job_id) "
+               "WHERE kind = 'cooling'") == 1);
+}

@@ -119,7 +119,7 @@ TEST_CASE("rows that refer to nothing are faults") {
   Vandal vandal;
   vandal.sqlite.exec("PRAGMA foreign_keys = OFF");
   vandal.sqlite.exec("INSERT INTO results VALUES (77, NULL, NULL)");
-  CHECK(vandal.store.faults() ==
+  CHECK(vandal.store.faults().file ==
         std::vector<std::string>{"results row 77 refers to a row that is missing in jobs"});
 }
 
