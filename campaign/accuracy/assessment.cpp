@@ -34,9 +34,6 @@ constexpr double decay_at[] = {10, 50};
 // G_parallel: the paper's. [tau]
 constexpr double correlation_tau = 50;
 
-// Every second and every fifth sample.
-constexpr std::size_t thinned[] = {2, 5};
-
 // ---- which quantities -------------------------------------------------------------------------
 
 std::optional<double> latest_correlation(const std::vector<const FinishedSeries*>& gas) {
@@ -94,20 +91,6 @@ std::vector<Quantity> quantities_of(const std::vector<const FinishedSeries*>& ga
 
 // ---- chance -----------------------------------------------------------------------------------
 
-std::vector<double> values_of(const Quantity& quantity, const FinishedSeries& series) {
-  std::vector<double> values;
-  for (const FinishedRun& run : series.runs)
-    if (const auto value = value_of(quantity, series.job, run)) values.push_back(*value);
-  return values;
-}
-
-// Runs that ended before their tau_c. Those that did not are the early ones, and their mean is no
-// tau_c of the gas.
-std::size_t unfinished(const Quantity& quantity, const FinishedSeries& series) {
-  if (quantity.measure != Measure::tau_c) return 0;
-  return series.runs.size() - values_of(quantity, series).size();
-}
-
 double mean_cpu_seconds(const Quantity& quantity, const FinishedSeries& series) {
   double sum = 0;
   for (const FinishedRun& run : series.runs) sum += cpu_seconds(quantity, run);
@@ -159,204 +142,7 @@ std::optional<Statistics> statistics_of(const Quantity& quantity, const Finished
   return result;
 }
 
-// ---- what moves the mean ----------------------------------------------------------------------
-
-// How a job was prepared, without how it was looked at.
-schema::Job unobserved(schema::Job job) {
-  job.sample_every = 1;
-  job.observables.clear();
-  job.profiles_every = std::nullopt;
-  job.fields_at.clear();
-  return job;
-}
-
-// A condition that series of one gas may differ in, and how good it is: the more the better.
-struct Condition {
-  SystematicEffect cause;
-  void (*neutralize)(schema::Job&);
-  double (*goodness)(const schema::Job&);
-  std::string (*text)(const schema::Job&);
-};
-
-const Condition conditions[] = {
-    {SystematicEffect::finite_size, [](schema::Job& job) { job.particles = 0; },
-     [](const schema::Job& job) { return static_cast<double>(job.particles); },
-     [](const schema::Job& job) { return "N = " + count_text(job.particles); }},
-    {SystematicEffect::equilibration, [](schema::Job& job) { job.equilibrate = 0; },
-     [](const schema::Job& job) { return job.equilibrate; },
-     [](const schema::Job& job) { return "equilibrate = " + number_text(job.equilibrate); }},
-};
-
-// Series that differ in the condition alone; of several with the same, the one of most
-// realizations.
-using Alternatives = std::map<double, const FinishedSeries*>;  // by goodness
-
-std::vector<Alternatives> alternatives(const Condition& condition,
-                                       const std::vector<const FinishedSeries*>& gas) {
-  std::map<std::string, Alternatives> groups;
-  for (const FinishedSeries* series : gas) {
-    schema::Job job = unobserved(series->job);
-    condition.neutralize(job);
-    const FinishedSeries*& place =
-        groups[schema::series_identity(job)][condition.goodness(series->job)];
-    if (place == nullptr || place->runs.size() < series->runs.size()) place = series;
-  }
-  std::vector<Alternatives> all;
-  all.reserve(groups.size());
-  for (auto& [key, group] : groups) all.push_back(std::move(group));
-  return all;
-}
-
-void add_condition_shifts(const Condition& condition, const Quantity& quantity,
-                          const std::vector<const FinishedSeries*>& gas,
-                          std::vector<BiasEstimate>& shifts) {
-  for (const Alternatives& group : alternatives(condition, gas)) {
-    const FinishedSeries& best = *group.rbegin()->second;
-    const auto reference = values_of(quantity, best);
-    if (reference.size() < 2 || unfinished(quantity, best) > 0) continue;
-    const Estimate better = analysis::estimate(reference);
-    for (const auto& [goodness, series] : group) {
-      const auto values = values_of(quantity, *series);
-      if (series == &best || values.size() < 2 || unfinished(quantity, *series) > 0) continue;
-      const Estimate here = analysis::estimate(values);
-      shifts.push_back({.quantity = quantity,
-                        .job = series->job,
-                        .cause = condition.cause,
-                        .change = fmt::format("{}, not {}", condition.text(series->job),
-                                              condition.text(best.job)),
-                        .value = here.mean - better.mean,
-                        .error = std::hypot(here.standard_error, better.standard_error)});
-    }
-  }
-}
-
-// Differences within each realization, so that what chance does to both is not in their error.
-void add_paired_shift(const Quantity& quantity, const FinishedSeries& series,
-                      SystematicEffect cause, const std::string& change,
-                      const std::function<std::optional<double>(const FinishedRun&)>& changed,
-                      std::vector<BiasEstimate>& shifts) {
-  std::vector<double> differences;
-  for (const FinishedRun& run : series.runs) {
-    const auto as_it_is = value_of(quantity, series.job, run), other = changed(run);
-    if (as_it_is && other) differences.push_back(*other - *as_it_is);
-  }
-  if (differences.size() < 2) return;
-  const Estimate shift = analysis::estimate(differences);
-  const bool same = shift.mean == 0 && shift.standard_error == 0;
-  shifts.push_back({.quantity = quantity,
-                    .job = series.job,
-                    .cause = cause,
-                    .change = change + (same ? ": the same samples" : ""),
-                    .value = shift.mean,
-                    .error = shift.standard_error});
-}
-
-void add_sampling_shifts(const Quantity& quantity, const FinishedSeries& series,
-                         std::vector<BiasEstimate>& shifts) {
-  const schema::Job& job = series.job;
-  if (quantity.measure == Measure::correlation) return;
-  for (const std::size_t every : thinned) {
-    const double interval = static_cast<double>(every) * job.sample_every;
-    const bool has_window = quantity.from < quantity.to;
-    if (has_window && interval > (quantity.to - quantity.from) / 2) continue;
-    add_paired_shift(
-        quantity, series, SystematicEffect::sampling,
-        fmt::format("a sample every {:g}, not {:g}", interval, job.sample_every),
-        [&](const FinishedRun& run) { return value_of(quantity, job, run, every); }, shifts);
-  }
-  if (quantity.from >= quantity.to) return;
-  const Quantity half = middle_half(quantity);
-  add_paired_shift(
-      quantity, series, SystematicEffect::averaging,
-      fmt::format("mean over tau {:g} to {:g}", half.from, half.to),
-      [&](const FinishedRun& run) { return value_of(half, job, run); }, shifts);
-}
-
-// The same states on wider cells: those that are stored, at the end of the runs.
-void add_mesh_shift(Quantity quantity, const FinishedSeries& series,
-                    std::vector<BiasEstimate>& shifts) {
-  quantity.from = quantity.to = series.runs.front().mesh->usual.tau;
-  std::vector<double> values, differences;
-  for (const FinishedRun& run : series.runs) {
-    if (!run.mesh || run.mesh->usual.tau != quantity.to) continue;
-    const auto at_r = [&](const schema::Profile& profile) {
-      return analysis::interpolated(profile.x, profile.value, quantity.r);
-    };
-    const auto usual = at_r(run.mesh->usual), wide = at_r(run.mesh->wide);
-    if (!usual || !wide) continue;
-    values.push_back(*usual);
-    differences.push_back(*wide - *usual);
-  }
-  if (differences.size() < 2) return;
-  const Estimate shift = analysis::estimate(differences);
-  shifts.push_back({.quantity = quantity,
-                    .job = series.job,
-                    .cause = SystematicEffect::mesh,
-                    .change = fmt::format("cells of {:g} sigma, not 1, at tau {:g}: of {:.1e}",
-                                          wide_cell, quantity.to, analysis::estimate(values).mean),
-                    .value = shift.mean,
-                    .error = shift.standard_error});
-}
-
 // ---- all --------------------------------------------------------------------------------------
-
-// Of those with the most particles in all realizations together the noise is least; of equals the
-// largest gas is nearest to an infinite one. Nothing if none has two values, or each run its tau_c.
-const FinishedSeries* quietest(const Quantity& quantity,
-                               const std::vector<const FinishedSeries*>& gas) {
-  const FinishedSeries* best = nullptr;
-  std::pair<double, std::uint32_t> most;
-  for (const FinishedSeries* series : gas) {
-    const std::size_t realizations = values_of(quantity, *series).size();
-    if (realizations < 2 || unfinished(quantity, *series) > 0) continue;
-    const std::pair here(
-        static_cast<double>(series->job.particles) * static_cast<double>(realizations),
-        series->job.particles);
-    if (best != nullptr && here <= most) continue;
-    best = series;
-    most = here;
-  }
-  return best;
-}
-
-// Those whose stored states are nearest to the quantity's tau.
-std::vector<const FinishedSeries*> nearest_meshed(const Quantity& quantity,
-                                                  std::vector<const FinishedSeries*> gas) {
-  std::erase_if(gas, [](const FinishedSeries* series) { return !series->runs.front().mesh; });
-  const auto distance = [&](const FinishedSeries* series) {
-    return std::abs(series->runs.front().mesh->usual.tau - quantity.to);
-  };
-  if (gas.empty()) return gas;
-  const double least = distance(*std::ranges::min_element(gas, {}, distance));
-  std::erase_if(gas, [&](const FinishedSeries* series) { return distance(series) > least; });
-  return gas;
-}
-
-void add_shifts(const Quantity& quantity, const std::vector<const FinishedSeries*>& gas,
-                std::vector<BiasEstimate>& shifts) {
-  for (const Condition& condition : conditions)
-    add_condition_shifts(condition, quantity, gas, shifts);
-  if (const FinishedSeries* series = quietest(quantity, gas))
-    add_sampling_shifts(quantity, *series, shifts);
-  if (quantity.measure == Measure::correlation)
-    if (const FinishedSeries* series = quietest(quantity, nearest_meshed(quantity, gas)))
-      add_mesh_shift(quantity, *series, shifts);
-}
-
-// What may move the quantity at all: a correlation is of one state, others of samples.
-bool is_moved(const Quantity& quantity, SystematicEffect cause) {
-  const bool is_of_mesh = quantity.measure == Measure::correlation;
-  switch (cause) {
-    case SystematicEffect::mesh:
-      return is_of_mesh;
-    case SystematicEffect::sampling:
-      return !is_of_mesh;
-    case SystematicEffect::averaging:
-      return quantity.from < quantity.to;
-    default:
-      return true;
-  }
-}
 
 void assess_gas(const std::vector<const FinishedSeries*>& gas, const Wanted& wanted,
                 Assessment& assessment) {
@@ -373,8 +159,7 @@ void assess_gas(const std::vector<const FinishedSeries*>& gas, const Wanted& wan
       assessment.absent.push_back({.quantity = quantity, .job = job, .reached = reached});
       continue;
     }
-    std::vector<BiasEstimate> shifts;
-    add_shifts(quantity, gas, shifts);
+    auto shifts = shifts_of(quantity, gas);
     for (const SystematicEffect cause :
          {SystematicEffect::finite_size, SystematicEffect::equilibration,
           SystematicEffect::sampling, SystematicEffect::averaging, SystematicEffect::mesh})
@@ -386,51 +171,7 @@ void assess_gas(const std::vector<const FinishedSeries*>& gas, const Wanted& wan
   }
 }
 
-// A shift that is not seen may still be as large as its error.
-double finite_size_bound(const Assessment& assessment, const Statistics& statistics) {
-  const BiasEstimate* shift = finite_size_shift(assessment, statistics);
-  return shift == nullptr ? 0 : std::max(finite_size_error(assessment, statistics), shift->error);
-}
-
-// One size of the gas, for a target, of which finite size has taken `bias`.
-std::optional<Offer> offer(const Statistics& each, double target, double bias) {
-  if (bias >= target || !(each.deviation > 0)) return std::nullopt;
-  const auto realizations =
-      analysis::realizations_needed(each.deviation, std::sqrt(target * target - bias * bias));
-  return Offer{.job = each.job,
-               .realizations = realizations,
-               .cpu_seconds = static_cast<double>(realizations) * each.cpu_seconds,
-               .finite_size = bias,
-               .seen = each.realizations};
-}
-
-bool is_candidate(const Statistics& each, const std::string& gas, const Quantity& quantity) {
-  return each.quantity == quantity && gas_key(each.job) == gas && each.unfinished == 0;
-}
-
 }  // namespace
-
-std::string name(SystematicEffect cause) {
-  switch (cause) {
-    case SystematicEffect::finite_size:
-      return "finite size";
-    case SystematicEffect::equilibration:
-      return "equilibration";
-    case SystematicEffect::sampling:
-      return "sampling";
-    case SystematicEffect::averaging:
-      return "averaging";
-    case SystematicEffect::mesh:
-      return "mesh";
-  }
-  throw std::logic_error("unknown cause");
-}
-
-std::string gas_key(schema::Job job) {
-  job = unobserved(std::move(job));
-  for (const Condition& condition : conditions) condition.neutralize(job);
-  return schema::series_identity(job);
-}
 
 Assessment assess(const std::vector<FinishedSeries>& all,
                   const std::vector<schema::Target>& targets, const std::vector<Quantity>& asked) {
@@ -444,44 +185,6 @@ Assessment assess(const std::vector<FinishedSeries>& all,
   Assessment assessment;
   for (const std::string& key : order) assess_gas(gases[key], {targets, asked}, assessment);
   return assessment;
-}
-
-const BiasEstimate* finite_size_shift(const Assessment& assessment, const Statistics& statistics) {
-  const auto found = std::ranges::find_if(assessment.shifts, [&](const BiasEstimate& shift) {
-    return shift.cause == SystematicEffect::finite_size && shift.quantity == statistics.quantity &&
-           shift.job.particles == statistics.job.particles &&
-           gas_key(shift.job) == gas_key(statistics.job);
-  });
-  return found == assessment.shifts.end() ? nullptr : &*found;
-}
-
-double finite_size_error(const Assessment& assessment, const Statistics& statistics) {
-  const BiasEstimate* shift = finite_size_shift(assessment, statistics);
-  if (shift == nullptr) return 0;
-  return std::sqrt(std::max(0.0, shift->value * shift->value - shift->error * shift->error));
-}
-
-std::optional<Offer> cheapest(const Assessment& assessment, const std::string& gas,
-                              const Quantity& quantity, double target) {
-  std::optional<Offer> best;
-  for (const Statistics& each : assessment.statistics) {
-    if (!is_candidate(each, gas, quantity)) continue;
-    const auto here = offer(each, target, finite_size_bound(assessment, each));
-    if (here && (!best || here->cpu_seconds < best->cpu_seconds)) best = here;
-  }
-  return best;
-}
-
-bool smaller_might_do(const Assessment& assessment, const std::string& gas,
-                      const Quantity& quantity, double target) {
-  const auto best = cheapest(assessment, gas, quantity, target);
-  return std::ranges::any_of(assessment.statistics, [&](const Statistics& each) {
-    if (!is_candidate(each, gas, quantity) || finite_size_bound(assessment, each) < target)
-      return false;
-    const auto here = offer(each, target, finite_size_error(assessment, each));
-    return here && (!best || (here->job.particles < best->job.particles &&
-                              here->cpu_seconds < best->cpu_seconds));
-  });
 }
 
 }  // namespace haff::campaign

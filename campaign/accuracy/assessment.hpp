@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// How accurate a store's results are, where the errors come from, and what less of them would cost.
+// How accurate a store's results are, and where the errors come from.
 #pragma once
 
 #include <optional>
@@ -9,6 +9,7 @@
 
 #include "analysis/statistics/accuracy.hpp"
 #include "campaign/accuracy/quantity.hpp"
+#include "campaign/accuracy/systematic.hpp"
 
 namespace haff::campaign {
 
@@ -27,21 +28,6 @@ struct Statistics {
   std::optional<double> correlation_time = {};  // [tau], where the error comes from blocks
   std::vector<analysis::GroupScatter> scatter = {};
   std::optional<analysis::Slope> slope = {};  // of scatter; -1/2 for independent realizations
-};
-
-// What moves a mean, whatever the number of realizations.
-enum class SystematicEffect { finite_size, equilibration, sampling, averaging, mesh };
-
-std::string name(SystematicEffect cause);
-
-// The mean under a condition less the mean under a better one.
-struct BiasEstimate {
-  Quantity quantity;
-  schema::Job job;  // of the condition
-  SystematicEffect cause = SystematicEffect::finite_size;
-  std::string change;  // "N = 4 000, not 32 000"
-  double value = 0;
-  double error = 0;  // standard error of value
 };
 
 // A cause that may move a quantity, and of which the store says nothing.
@@ -71,34 +57,5 @@ struct Assessment {
 Assessment assess(const std::vector<FinishedSeries>& all,
                   const std::vector<schema::Target>& targets = {},
                   const std::vector<Quantity>& asked = {});
-
-// The same gas: equal in d, e, n and effects, whatever its size, preparation and sampling.
-std::string gas_key(schema::Job job);
-
-// The shift of gases of this size, whatever their preparation; nothing for the largest.
-const BiasEstimate* finite_size_shift(const Assessment& assessment, const Statistics& statistics);
-
-// The finite size of the gas as an error beside that of chance: its shift less what chance would
-// make of none, 0 where the largest gas is meant or the shift is within its error.
-double finite_size_error(const Assessment& assessment, const Statistics& statistics);
-
-// The cheapest way to a standard error, finite size included: as large as it is seen to be, and at
-// least as the error of its shift. The largest gas stands for an infinite one.
-struct Offer {
-  schema::Job job;
-  std::size_t realizations = 0;
-  double cpu_seconds = 0;
-  double finite_size = 0;  // part of the error
-  std::size_t seen = 0;    // runs that its scatter is known from
-};
-// `gas` names one, by its key. Nothing if no size of it has an error (and a tau_c in each run, if
-// that is asked for), or each is too small.
-std::optional<Offer> cheapest(const Assessment& assessment, const std::string& gas,
-                              const Quantity& quantity, double target);
-
-// Whether a smaller gas might do for less, and is not offered for the sole reason that its shift is
-// not known well enough: more runs of the largest gas may tell.
-bool smaller_might_do(const Assessment& assessment, const std::string& gas,
-                      const Quantity& quantity, double target);
 
 }  // namespace haff::campaign

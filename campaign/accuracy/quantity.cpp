@@ -248,4 +248,16 @@ double cpu_seconds(const Quantity& quantity, const FinishedRun& run) {
   return run.equilibration_cpu_seconds + run.cpu_seconds * std::min(1.0, needed / run.tau_max);
 }
 
+std::vector<double> values_of(const Quantity& quantity, const FinishedSeries& series) {
+  std::vector<double> values;
+  for (const FinishedRun& run : series.runs)
+    if (const auto value = value_of(quantity, series.job, run)) values.push_back(*value);
+  return values;
+}
+
+std::size_t unfinished(const Quantity& quantity, const FinishedSeries& series) {
+  if (quantity.measure != Measure::tau_c) return 0;
+  return series.runs.size() - values_of(quantity, series).size();
+}
+
 }  // namespace haff::campaign

@@ -63,4 +63,11 @@ std::optional<double> half_interval(const schema::Target& target, const Finished
 // cooling in proportion to tau. [s]
 double cpu_seconds(const Quantity& quantity, const FinishedRun& run);
 
+// Of the realizations that have one.
+std::vector<double> values_of(const Quantity& quantity, const FinishedSeries& series);
+
+// Runs that ended before their tau_c. Those that did not are the early ones, and their mean is no
+// tau_c of the gas.
+std::size_t unfinished(const Quantity& quantity, const FinishedSeries& series);
+
 }  // namespace haff::campaign

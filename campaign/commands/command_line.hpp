@@ -9,7 +9,7 @@
 #include <string>
 #include <variant>
 
-#include "campaign/accuracy/cost.hpp"
+#include "campaign/accuracy/cost/cost.hpp"
 #include "campaign/commands/cluster/merge.hpp"
 #include "campaign/commands/cluster/recall.hpp"
 #include "campaign/commands/cluster/split.hpp"

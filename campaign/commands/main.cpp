@@ -8,7 +8,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "campaign/accuracy/cost.hpp"
+#include "campaign/accuracy/cost/cost.hpp"
 #include "campaign/base/output/log.hpp"
 #include "campaign/base/output/output.hpp"
 #include "campaign/base/process/exit_code.hpp"

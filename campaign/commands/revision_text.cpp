@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "campaign/accuracy/targets.hpp"
+#include "campaign/accuracy/targets/targets.hpp"
 #include "campaign/base/text/job_text.hpp"
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/base/text/text_table.hpp"

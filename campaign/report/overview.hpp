@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/accuracy/targets.hpp"
+#include "campaign/accuracy/targets/targets.hpp"
 #include "campaign/cluster/shards.hpp"
 #include "campaign/results/series.hpp"
 #include "schema/store/store.hpp"

@@ -10,8 +10,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "campaign/accuracy/more_realizations.hpp"
-#include "campaign/accuracy/targets.hpp"
+#include "campaign/accuracy/targets/more_realizations.hpp"
+#include "campaign/accuracy/targets/targets.hpp"
 #include "campaign/base/output/output.hpp"
 #include "campaign/base/process/exit_code.hpp"
 #include "campaign/base/text/command_text.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/accuracy/targets.hpp"
+#include "campaign/accuracy/targets/targets.hpp"
 #include "campaign/planning/forecast.hpp"
 #include "campaign/results/box.hpp"
 #include "schema/store/revision.hpp"

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "campaign/accuracy/more_realizations.hpp"
-#include "campaign/accuracy/targets.hpp"
+#include "campaign/accuracy/targets/more_realizations.hpp"
+#include "campaign/accuracy/targets/targets.hpp"
 #include "campaign/base/output/output.hpp"
 #include "campaign/base/process/cpu_time.hpp"
 #include "campaign/base/process/exit_code.hpp"

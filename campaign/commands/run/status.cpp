@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "campaign/accuracy/targets_table.hpp"
+#include "campaign/accuracy/targets/table.hpp"
 #include "campaign/base/output/output.hpp"
 #include "campaign/base/process/exit_code.hpp"
 #include "campaign/base/text/command_text.hpp"

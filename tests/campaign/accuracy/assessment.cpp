@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // What errors come from, of gases whose errors are put in.
-#include "campaign/accuracy/assessment.hpp"
+#include "campaign/accuracy/offer.hpp"
 
 #include <doctest/doctest.h>
 

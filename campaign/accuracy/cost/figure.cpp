@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "campaign/accuracy/cost_figure.hpp"
+#include "campaign/accuracy/cost/figure.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "campaign/accuracy/offer.hpp"
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/base/text/text_table.hpp"
 #include "campaign/plot/colours.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "campaign/accuracy/cost_target.hpp"
+#include "campaign/accuracy/cost/target.hpp"
 
 #include <algorithm>
 

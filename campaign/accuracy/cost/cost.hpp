@@ -12,7 +12,7 @@
 #include <ostream>
 #include <vector>
 
-#include "campaign/accuracy/cost_target.hpp"
+#include "campaign/accuracy/cost/target.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::campaign {

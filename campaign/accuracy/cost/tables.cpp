@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "campaign/accuracy/cost_tables.hpp"
+#include "campaign/accuracy/cost/tables.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

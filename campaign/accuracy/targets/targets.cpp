@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "campaign/accuracy/targets.hpp"
+#include "campaign/accuracy/targets/targets.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "campaign/accuracy/more_realizations.hpp"
+#include "campaign/accuracy/targets/more_realizations.hpp"
 
 #include <algorithm>
 #include <map>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "campaign/accuracy/targets.hpp"
+#include "campaign/accuracy/targets/targets.hpp"
 #include "campaign/planning/forecast.hpp"
 
 namespace haff::campaign {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // What `campaign cost` says and writes.
-#include "campaign/accuracy/cost.hpp"
+#include "campaign/accuracy/cost/cost.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "campaign/accuracy/cost_target.hpp"
+#include "campaign/accuracy/cost/target.hpp"
 #include "support/synthetic_store.hpp"
 #include "support/temporary_folder.hpp"
 

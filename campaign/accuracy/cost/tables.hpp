@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "campaign/accuracy/assessment.hpp"
-#include "campaign/accuracy/cost_advice.hpp"
-#include "campaign/accuracy/cost_target.hpp"
+#include "campaign/accuracy/cost/advice.hpp"
+#include "campaign/accuracy/cost/target.hpp"
 #include "campaign/results/finished_runs.hpp"
 #include "schema/store/reader.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // An error that is wanted, as the command line names it.
-#include "campaign/accuracy/cost_target.hpp"
+#include "campaign/accuracy/cost/target.hpp"
 
 #include <doctest/doctest.h>
 

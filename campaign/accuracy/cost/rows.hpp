@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "campaign/accuracy/assessment.hpp"
-#include "campaign/accuracy/cost_advice.hpp"
+#include "campaign/accuracy/cost/advice.hpp"
 
 namespace haff::campaign {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "campaign/accuracy/cost_advice.hpp"
+#include "campaign/accuracy/cost/advice.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/accuracy/targets.hpp"
+#include "campaign/accuracy/targets/targets.hpp"
 
 namespace haff::campaign {
 

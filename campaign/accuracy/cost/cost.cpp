@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "campaign/accuracy/cost.hpp"
+#include "campaign/accuracy/cost/cost.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -11,10 +11,10 @@
 #include <system_error>
 
 #include "campaign/accuracy/assessment.hpp"
-#include "campaign/accuracy/cost_advice.hpp"
-#include "campaign/accuracy/cost_figure.hpp"
-#include "campaign/accuracy/cost_rows.hpp"
-#include "campaign/accuracy/cost_tables.hpp"
+#include "campaign/accuracy/cost/advice.hpp"
+#include "campaign/accuracy/cost/figure.hpp"
+#include "campaign/accuracy/cost/rows.hpp"
+#include "campaign/accuracy/cost/tables.hpp"
 #include "campaign/base/output/write_file.hpp"
 #include "campaign/planning/forecast.hpp"
 #include "campaign/plot/gnuplot.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "campaign/accuracy/cost_rows.hpp"
+#include "campaign/accuracy/cost/rows.hpp"
 
 #include <utility>
 
