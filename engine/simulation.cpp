@@ -67,6 +67,7 @@ class Simulation::Implementation {
                                                const Threads& threads) {
     if (mixture_in(state) && !model.effects.contains("mixture"))
       throw std::invalid_argument("the state is of a mixture, and the model asks for none");
+    if (model.counts_collisions) return observed_variant(model, gas, state, backend);
     if (std::max(threads.count, threads.slabs) > 1 && backend == SearchBackend::simd &&
         gas.tells_images_apart() &&
         Slabs::most(gas.bricks, std::max(threads.count, threads.slabs)) > 1)
@@ -167,6 +168,10 @@ std::optional<double> Simulation::rotational_energy() const {
 
 Tally Simulation::take_tally() {
   return engine::take_tally(self_->gas.clock);
+}
+
+std::optional<CollisionCounts> Simulation::take_collision_counts() {
+  return self_->variant->take_collision_counts();
 }
 
 Invariants Simulation::invariants() const {

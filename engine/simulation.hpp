@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "collision_counts.hpp"
 #include "state.hpp"
 
 namespace haff::engine {
@@ -43,6 +44,9 @@ struct Model {
   // Further effects by name, with their parameters: {{"shuffle", {{"every", 1}}}}.
   std::map<std::string, Parameters> effects = {};
   std::uint64_t seed = 0;  // of the random numbers of effects
+  // Whether collisions are counted in bins. The trajectory keeps its bits; it is computed by one
+  // thread.
+  bool counts_collisions = false;
 };
 
 // Which implementation searches for contacts. All give the same bits.
@@ -137,6 +141,9 @@ class Simulation {
   // What collisions did since the last call.
   Tally take_tally();
   Invariants invariants() const;
+
+  // What collisions were like since the last call, in bins; nothing unless the model asks for it.
+  std::optional<CollisionCounts> take_collision_counts();
 
   // The state; throws std::logic_error if the gas is not synchronized.
   State state() const;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "analysis/theory/collision_statistics.hpp"
 #include "analysis/theory/cooling.hpp"
 #include "analysis/theory/enskog.hpp"
 #include "analysis/theory/enskog_boltzmann.hpp"
@@ -38,7 +39,7 @@ constexpr std::array kinds{
     Kind{"_incompressible", "incompressible theory", Look::line},
     Kind{"_compressible", "compressible theory", Look::dashed},
     Kind{"_enskog", "Enskog's theory", Look::line},
-    Kind{"_gaussian", "theory for Gaussian velocities", Look::line},
+    Kind{"_gaussian", "theory for Gaussian velocities", Look::dashed},
     Kind{"", "theory", Look::line},
 };
 
@@ -143,6 +144,30 @@ std::vector<TheoryLine> lines_of_elastic_gas(const std::string& profile, const T
                           : profile == "diffusion"
                               ? analysis::self_diffusion_per_collision(at.n, at.d)
                               : analysis::enskog_autocorrelation(each, at.d));
+  constexpr double densest_simulated = 1.08;
+  if (profile != "diffusion" || at.d == 2 || at.n > densest_simulated) return {line};
+  TheoryLine simulated = constant(profile + "_simulated",
+                                  analysis::simulated_self_diffusion_per_collision(at.n), x.size());
+  simulated.legend = "molecular dynamics, elastic gas";
+  simulated.look = Look::dashed;
+  return {line, simulated};
+}
+
+// What collisions of an elastic gas are like in molecular chaos: of a gas that cools the first
+// guess. Impact parameters alone do not depend on masses and temperatures of species.
+std::vector<TheoryLine> lines_of_collisions(const std::string& profile, const TheoryPoint& at,
+                                            std::span<const double> x) {
+  TheoryLine line = line_named(profile + "_chaos");
+  line.legend = "molecular chaos";
+  line.look = Look::dashed;
+  if (profile != "impacts") {
+    if (at.mixture) return {};
+    line.legend = "molecular chaos, elastic gas";
+  }
+  for (const double each : x)
+    line.values.push_back(profile == "impacts"      ? 1
+                          : profile == "free_times" ? analysis::free_time_density(each, at.d)
+                                                    : analysis::normal_speed_density(each));
   return {line};
 }
 
@@ -195,8 +220,9 @@ std::vector<TheoryLine> decay_rates(const Quantity& quantity, const schema::Job&
 }  // namespace
 
 std::vector<TheoryLine> theory_in_tau(const std::string& column, const schema::Job& job,
-                                      std::span<const double> tau) try {
-  const TheoryPoint at = point_of(job);
+                                      std::span<const double> tau, Simulations simulations) try {
+  TheoryPoint at = point_of(job);
+  if (simulations == Simulations::left_out) at.may_compute = false;
   if (column == "energy")
     return changed(lines_of("temperature", at, tau), column,
                    [&](double t) { return t * at.d / 2; });
@@ -223,12 +249,12 @@ std::vector<TheoryLine> theory_in_tau(const std::string& column, const schema::J
 }
 
 std::vector<double> times_of(const TheoryLine& line, const schema::Job& job,
-                             std::span<const double> tau) {
+                             std::span<const double> tau, Simulations simulations) {
   const bool is_haff = line.name.ends_with("_haff") || line.name.ends_with("_second_order") ||
                        line.name.ends_with("_dsmc");
   const std::string clock =
       is_haff ? "temperature_haff" : "temperature_energy_equation_non_gaussian";
-  const auto temperatures = theory_in_tau("temperature", job, tau);
+  const auto temperatures = theory_in_tau("temperature", job, tau, simulations);
   const auto found = std::ranges::find(temperatures, clock, &TheoryLine::name);
   if (found == temperatures.end()) return {};
   // dt = dtau / omega, and 1/omega grows exponentially: its mean over a step is the geometric one.
@@ -255,6 +281,8 @@ std::vector<TheoryLine> theory_of_profile(const std::string& profile, const sche
   at.tau = tau;
   if (profile == "g" || profile == "diffusion" || profile == "vacf")
     return lines_of_elastic_gas(profile, at, x);
+  if (profile == "free_times" || profile == "impacts" || profile == "normal_speeds")
+    return lines_of_collisions(profile, at, x);
   if (profile == "E_perpendicular" || profile == "E_parallel") return spectrum(profile, at, x);
   if (!(tau > 0)) return {};
   return lines_of(profile, at, x);

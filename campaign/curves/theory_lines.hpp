@@ -25,15 +25,18 @@ struct TheoryLine {
 // Each gives a value for each place, and no line where theory has nothing to say of this gas. A
 // direct simulation that is not in the table is computed where the law of restitution is not a
 // constant e, and left out otherwise.
+enum class Simulations { computed, left_out };
 
 // A column of samples, at increasing tau.
 std::vector<TheoryLine> theory_in_tau(const std::string& column, const schema::Job& job,
-                                      std::span<const double> tau);
+                                      std::span<const double> tau,
+                                      Simulations simulations = Simulations::computed);
 
 // The times of these tau on such a line [sigma sqrt(m/E(0))]: Haff's law for theories without
 // correlations, else the energy equation. Nothing for gases that neither is of.
 std::vector<double> times_of(const TheoryLine& line, const schema::Job& job,
-                             std::span<const double> tau);
+                             std::span<const double> tau,
+                             Simulations simulations = Simulations::computed);
 
 // A profile at its x.
 std::vector<TheoryLine> theory_of_profile(const std::string& profile, const schema::Job& job,

@@ -13,6 +13,7 @@
 #include "campaign/base/process/cpu_time.hpp"
 #include "campaign/base/process/signals.hpp"
 #include "campaign/base/text/job_text.hpp"
+#include "campaign/job/collisions.hpp"
 #include "campaign/job/measurement.hpp"
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/model.hpp"
@@ -71,8 +72,10 @@ void Attempt::begin(const engine::State& state) {
   });
   committed_ = samples_.size();
   views_ = {};
-  gas_.emplace(model_of(job()), state, engine::SearchBackend::simd,
-               engine::Threads{.count = threads_});
+  const engine::Model model = model_of(job());
+  gas_.emplace(model, state, engine::SearchBackend::simd, engine::Threads{.count = threads_});
+  if (threads_ > 1 && model.counts_collisions)
+    log("runs on one thread: collision_statistics needs the order of all collisions");
   diffusion_.begin(*gas_, state);
   if (gas_->collisions() > 0) log(fmt::format("goes on from tau = {:.6g}", tau()));
   speed_from_ = gas_->collisions();
@@ -95,9 +98,11 @@ void Attempt::sample(double tau) {
   schema::Sample sample = measure(*gas_, job(), tau, samples_);
   const Views taken = view(*gas_, job(), sample);
   const auto diffused = diffusion_.sample(*gas_, tau);
+  const auto collided = collision_statistics(*gas_, job(), tau);
   samples_.push_back(sample);
   views_.profiles.insert(views_.profiles.end(), taken.profiles.begin(), taken.profiles.end());
   views_.profiles.insert(views_.profiles.end(), diffused.begin(), diffused.end());
+  views_.profiles.insert(views_.profiles.end(), collided.begin(), collided.end());
   views_.fields.insert(views_.fields.end(), taken.fields.begin(), taken.fields.end());
 }
 

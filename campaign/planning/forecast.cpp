@@ -10,6 +10,7 @@
 #include "analysis/observables/pair_distribution.hpp"
 #include "analysis/observables/tail.hpp"
 #include "campaign/job/timetable.hpp"
+#include "campaign/state/model.hpp"
 #include "engine/initial.hpp"
 #include "engine/simulation.hpp"
 #include "schema/grid/observables.hpp"
@@ -105,6 +106,10 @@ double profile_points(const schema::Job& job, double box) {
       points += (std::min(analysis::pair_reach, box / 2) - 1) / analysis::pair_bin *
                 (job.effects.contains("mixture") ? 3 : 1);
     if (observable == "tail") points += analysis::tail_bins;
+    if (observable == "collision_statistics")
+      points += engine::CollisionCounts::bins_of_free_time +
+                engine::CollisionCounts::bins_of_impact +
+                engine::CollisionCounts::bins_of_normal_speed;
     if (observable == "cluster_sizes") points += std::log2(job.particles) + 2;
   }
   return points;
@@ -118,10 +123,13 @@ double diffusion_points(const schema::Job& job) {
   return points;
 }
 
-// In the state: image numbers, and positions and velocities of every waiting time.
-double diffusion_bytes(const schema::Job& job) {
+// In the state: image numbers, and positions and velocities of every waiting time; the last
+// collision of every particle.
+double remembered_bytes(const schema::Job& job) {
   const double points = diffusion_points(job);
-  return points > 0 ? (24 + 48 * points) * job.particles : 0;
+  const double diffusion = points > 0 ? 24 + 48 * points : 0;
+  const double collision = model_of(job).counts_collisions ? sizeof(double) : 0;
+  return (diffusion + collision) * job.particles;
 }
 
 double field_bytes(const schema::Job& job) {
@@ -187,7 +195,7 @@ double Forecast::cpu_seconds(const schema::Planned& plan) {
 
 double Forecast::memory_bytes(const schema::Job& job) {
   return program_bytes + sizes_of(job).engine * job.particles +
-         std::max(storing_bytes * job.particles, view_bytes(job)) + 3 * diffusion_bytes(job);
+         std::max(storing_bytes * job.particles, view_bytes(job)) + 3 * remembered_bytes(job);
 }
 
 const Sizes& Forecast::sizes_of(const schema::Job& job) {
@@ -199,7 +207,7 @@ const Sizes& Forecast::sizes_of(const schema::Job& job) {
 double Forecast::disk_bytes(const schema::Planned& plan) {
   const Counts counts = counts_of(plan);
   const double state = counts.commits > 0 ? sizes_of(plan.job).state : 0;
-  return job_bytes + state * plan.job.particles + (state > 0 ? diffusion_bytes(plan.job) : 0) +
+  return job_bytes + state * plan.job.particles + (state > 0 ? remembered_bytes(plan.job) : 0) +
          sample_bytes * counts.samples +
          counts.profiles * profile_row_bytes * profile_points(plan.job, box_of(plan.job)) +
          counts.samples * profile_row_bytes * diffusion_points(plan.job) +

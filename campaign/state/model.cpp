@@ -2,6 +2,8 @@
 
 #include "campaign/state/model.hpp"
 
+#include <algorithm>
+
 namespace haff::campaign {
 
 engine::Model model_of(const schema::Job& job) {
@@ -9,6 +11,8 @@ engine::Model model_of(const schema::Job& job) {
   model.law.name = job.effects.law();
   for (const auto& [effect, parameters] : job.effects.by_name())
     (effect == "restitution" ? model.law.parameters : model.effects[effect]) = parameters;
+  model.counts_collisions =
+      std::ranges::find(job.observables, "collision_statistics") != job.observables.end();
   return model;
 }
 

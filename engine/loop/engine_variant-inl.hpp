@@ -38,6 +38,12 @@ class VariantOf : public EngineVariant {
   void store(State& state) const override { physics_.store(state); }
   void scale(int exponent) override { physics_.scale(exponent); }
   std::optional<Rotation> rotation() const override { return physics_.rotation(); }
+  std::optional<CollisionCounts> take_collision_counts() override {
+    if constexpr (requires { physics_.take_counts(); })
+      return physics_.take_counts();
+    else
+      return std::nullopt;
+  }
   std::size_t memory() const override { return physics_.memory(); }
 
  protected:

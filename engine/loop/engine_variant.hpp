@@ -29,6 +29,8 @@ class EngineVariant {
   virtual std::optional<Rotation> rotation() const = 0;
   // Of a variant that runs on several threads.
   virtual std::optional<Windows> windows() const { return std::nullopt; }
+  // Of a variant that counts collisions in bins: what it has counted since the last call.
+  virtual std::optional<CollisionCounts> take_collision_counts() = 0;
   virtual std::size_t memory() const = 0;  // bytes, in addition to the gas
 };
 
@@ -44,6 +46,10 @@ std::unique_ptr<EngineVariant> spheres_variant(const Model& model, const Gas& ga
 // Any physics, on several threads. Throws likewise.
 std::unique_ptr<EngineVariant> parallel_variant(const Model& model, const State& start,
                                                 const Threads& threads);
+
+// Any physics, with its collisions counted. Throws likewise.
+std::unique_ptr<EngineVariant> observed_variant(const Model& model, const Gas& gas,
+                                                const State& start, SearchBackend backend);
 
 // Disks, with SIMD. Throws likewise.
 std::unique_ptr<EngineVariant> disks_variant(const Model& model, const State& start);

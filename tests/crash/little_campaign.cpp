@@ -18,7 +18,8 @@ std::string grid(double tau_max, int seeds) {
   return fmt::format(R"({{
   "n": 0.2, "N": 108, "tau_max": {}, "equilibrate": 10, "seeds": {}, "grids": [
   {{"e": 0.8, "profiles_every": 10, "fields_at": [20], "observables": ["temperature", "laguerre",
-    "distribution", "correlations", "structure", "clusters", "fields"]}},
+    "distribution", "tail", "correlations", "structure", "pair_distribution", "energy_spectrum",
+    "clusters", "cluster_sizes", "collision_statistics", "msd", "vacf@10", "fields"]}},
   {{"e": 0.9, "effects": [
     {{"roughness": {{"beta": 0.5, "q": 0.4}}}},
     {{"mixture": {{"fraction": 0.5, "diameter_ratio": 0.8, "mass_ratio": 0.1}}}},

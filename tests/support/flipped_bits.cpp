@@ -30,8 +30,9 @@ constexpr const char* every_effect_and_observable = R"(
   "observables": ["temperature", "laguerre"],
   "grids": [
     {"e": 0.8, "profiles_every": 2, "fields_at": [2],
-     "observables": ["temperature", "laguerre", "distribution", "correlations", "structure",
-                     "clusters", "fields"]},
+     "observables": ["temperature", "laguerre", "distribution", "tail", "correlations",
+                     "structure", "pair_distribution", "energy_spectrum", "clusters",
+                     "cluster_sizes", "collision_statistics", "msd", "vacf@2", "fields"]},
     {"e": 0.8, "effects": [{"restitution": {"law": "threshold", "speed": 0.1}},
                            {"restitution": {"law": "tc", "t_c": 1e-3}}, {"shuffle": {"every": 2}},
                            {"thermostat": {"rate": 0.05}}, {"roughness": {"beta": 0.5, "q": 0.4}},

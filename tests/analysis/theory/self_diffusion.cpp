@@ -4,8 +4,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "analysis/theory/enskog.hpp"
 
@@ -20,6 +22,23 @@ TEST_CASE("self_diffusion: Chapman and Enskog's coefficient of spheres and disks
   const double disks = 1 / (2 * n * contact_value(n, 2)) * std::sqrt(T / std::numbers::pi);
   CHECK(self_diffusion_per_collision(n, 2) * transport(n, T, 2).collision_rate ==
         Approx(disks).epsilon(1e-12));
+}
+
+TEST_CASE("self_diffusion: Enskog's D beside that of simulations") {
+  const auto excess = [](double n) {
+    return simulated_self_diffusion_per_collision(n) / self_diffusion_per_collision(n) - 1;
+  };
+  // Within the third order of density; the fit begins at the first Sonine approximation.
+  CHECK(excess(1e-4) == Approx(1 / 1.019 - 1).epsilon(0.02));
+  CHECK(excess(0.1) == Approx(0.024).epsilon(0.03));
+  CHECK(excess(0.2) == Approx(0.073).epsilon(0.03));
+  CHECK(excess(0.4) == Approx(0.174).epsilon(0.03));
+  double most = 0;
+  for (double n = 0.05; n < 0.9; n += 0.01) most = std::max(most, excess(n));
+  CHECK(most == Approx(0.205).epsilon(0.03));
+  CHECK(excess(0.78) > 0);
+  CHECK(excess(0.80) < 0);
+  CHECK_THROWS_AS(simulated_self_diffusion_per_collision(1.1), std::invalid_argument);
 }
 
 TEST_CASE("self_diffusion: the velocity is forgotten as D says") {

@@ -20,7 +20,9 @@ namespace {
 constexpr const char* long_grid = R"({
   "e": [0.9, 0.95], "n": 0.4, "N": 1000, "seeds": 3, "tau_max": 1500, "sample_every": 4,
   "checkpoint_every": 20, "profiles_every": 60, "fields_at": [300, 1500], "observables":
-  ["temperature", "laguerre", "distribution", "correlations", "structure", "clusters", "fields"]})";
+  ["temperature", "laguerre", "distribution", "tail", "correlations", "structure",
+   "pair_distribution", "energy_spectrum", "clusters", "cluster_sizes", "collision_statistics",
+   "msd", "msd@100", "vacf@100", "fields"]})";
 
 void plan(const Folder& folder, const char* grid) {
   folder.write("grid.json", grid);

@@ -157,12 +157,13 @@ TEST_CASE("a value of the wrong type or out of range is shown with what was expe
   check_complaint(
       with("observables", "[\"laguere\"]"),
       "g.json: /observables/0: \"laguere\" is not accepted; did you mean \"laguerre\"?");
-  check_complaint(with("observables", "[\"pressure\"]"),
-                  "g.json: /observables/0: \"pressure\" is not accepted; expected one of "
-                  "\"temperature\", \"laguerre\", \"distribution\", \"tail\", "
-                  "\"correlations\", \"structure\", \"pair_distribution\", "
-                  "\"energy_spectrum\", \"clusters\", \"cluster_sizes\", \"msd\", "
-                  "\"vacf\", \"fields\"");
+  check_complaint(
+      with("observables", "[\"pressure\"]"),
+      "g.json: /observables/0: \"pressure\" is not accepted; expected one of "
+      "\"temperature\", \"laguerre\", \"distribution\", \"tail\", "
+      "\"correlations\", \"structure\", \"pair_distribution\", "
+      "\"energy_spectrum\", \"clusters\", \"cluster_sizes\", \"collision_statistics\", \"msd\", "
+      "\"vacf\", \"fields\"");
   check_complaint(with("observables", "[3]"),
                   "g.json: /observables/0: 3 is not accepted; expected the name of an observable");
 }
