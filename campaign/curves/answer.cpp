@@ -70,14 +70,20 @@ std::string number_of(const std::string& name, const ParameterValue& value) {
   return number_text(number);
 }
 
+// The tau of curves in a lag is the waiting time that they begin at.
+std::string word_for(const std::string& name, const std::string& variable) {
+  return name == "tau" && variable == "lag" ? "tau_w" : name;
+}
+
 // "e = 0.9, N = 8 000": of a legend in enhanced text, of tables and captions as it is.
-std::string label_of(const Scene& scene, const std::vector<std::string>& names, bool enhanced) {
+std::string label_of(const Scene& scene, const std::vector<std::string>& names, bool enhanced,
+                     const std::string& variable = {}) {
   std::string text;
   for (const std::string& name : names) {
     const ParameterValue* value = scene.find(name);
     if (value == nullptr) continue;
-    const std::string number = number_of(name, *value);
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", enhanced ? symbol(name) : name,
+    const std::string number = number_of(name, *value), word = word_for(name, variable);
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", enhanced ? symbol(word) : word,
                         enhanced ? literal(number) : number);
   }
   const bool lacks_effect = std::ranges::any_of(names, [&](const std::string& name) {
@@ -110,10 +116,11 @@ std::string primary(const Question& question, const std::vector<GasCurve>& curve
 }
 
 // Of all curves, if each has a number of this name and they are many.
-std::optional<ToneScale> tone_scale(const std::vector<GasCurve>& curves, const std::string& name) {
+std::optional<ToneScale> tone_scale(const std::vector<GasCurve>& curves, const std::string& name,
+                                    const std::string& variable) {
   constexpr double wide = 30;  // a range beyond this factor is shown in logarithms
   if (curves.size() <= most_in_legend) return std::nullopt;
-  ToneScale scale{.label = axis_label(name)};
+  ToneScale scale{.label = axis_label(word_for(name, variable))};
   std::set<double> values;
   for (const GasCurve& curve : curves) {
     const auto value = curve.scene.number(name);
@@ -131,9 +138,9 @@ std::optional<ToneScale> tone_scale(const std::vector<GasCurve>& curves, const s
 class Styles {
  public:
   Styles(const Question& question, const std::vector<GasCurve>& curves,
-         const std::vector<std::string>& names)
+         const std::vector<std::string>& names, const std::string& variable)
       : by_(question.by.empty() ? names : question.by), primary_(primary(question, curves, names)) {
-    scale_ = tone_scale(curves, primary_);
+    scale_ = tone_scale(curves, primary_, variable);
     for (const GasCurve& curve : curves) {
       const std::string group = label_of(curve.scene, by_, false);
       if (std::ranges::find(groups_, group) == groups_.end()) groups_.push_back(group);
@@ -168,9 +175,10 @@ class Styles {
 
 // ---- curves -----------------------------------------------------------------------------------
 
-Curve measured(const GasCurve& gas, const std::vector<std::string>& names) {
-  Curve curve{.name = label_of(gas.scene, names, false),
-              .legend = label_of(gas.scene, names, true),
+Curve measured(const GasCurve& gas, const std::vector<std::string>& names,
+               const std::string& variable) {
+  Curve curve{.name = label_of(gas.scene, names, false, variable),
+              .legend = label_of(gas.scene, names, true, variable),
               .source = Source::measured,
               .e = gas.scene.number("e"),
               .n = gas.scene.number("n")};
@@ -415,13 +423,17 @@ void set_y_range(const std::vector<Curve>& shown, std::size_t gases, Axis& axis)
 }
 
 void set_x_range(const Panel& panel, Axis& axis) {
+  // Beyond the last value that is not 0, nothing is to be seen: bins without particles, say.
   double low = INFINITY, high = -INFINITY;
-  for (const Curve& curve : panel.curves)
-    for (const double x : curve.x)
-      if (!axis.logarithmic || x > 0) {
-        low = std::min(low, x);
-        high = std::max(high, x);
-      }
+  for (const Curve& curve : panel.curves) {
+    if (curve.source != Source::measured) continue;
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      if (axis.logarithmic && !(curve.x[i] > 0)) continue;
+      if (panel.y.logarithmic && !(curve.y[i] > 0)) continue;
+      low = std::min(low, curve.x[i]);
+      if (curve.y[i] != 0 || high == -INFINITY) high = std::max(high, curve.x[i]);
+    }
+  }
   if (!(low < high)) return;
   const bool starts_at_zero = low >= 0 && low < 0.2 * high && !axis.logarithmic;
   if (axis.logarithmic) {
@@ -432,7 +444,10 @@ void set_x_range(const Panel& panel, Axis& axis) {
   }
   const double room = 0.03 * (high - low);
   axis.low = starts_at_zero ? 0 : low - room;
-  axis.high = high + (starts_at_zero && panel.curves.front().x.size() > most_in_legend ? 0 : room);
+  // A line may end at the frame, a symbol would be cut by it.
+  const bool may_touch =
+      panel.curves.front().look == Look::line && panel.curves.front().x.size() > most_in_legend;
+  axis.high = high + (starts_at_zero && may_touch ? 0 : room);
 }
 
 std::string realizations_text(const std::vector<GasCurve>& curves, bool is_difference) {
@@ -454,7 +469,7 @@ std::string caption_of(const Question& question, const Topic& topic, const GasCu
   for (const auto& [name, value] : curves.all.front().scene.parameters) {
     const bool usual = name == "equilibrate" || name == "sample_every";
     if (usual || std::ranges::find(names, name) != names.end()) continue;
-    common += fmt::format("{} = {}, ", name, number_of(name, value));
+    common += fmt::format("{} = {}, ", word_for(name, topic.x), number_of(name, value));
   }
   const bool is_difference = question.difference.has_value();
   const std::string sentence = realizations_text(curves.all, is_difference);
@@ -468,7 +483,8 @@ std::string caption_of(const Question& question, const Topic& topic, const GasCu
   // With a scale of tones the legend does not say what else sets curves apart.
   std::string rest;
   for (const std::string& name : names)
-    if (name != tone) rest += fmt::format("{}{}", rest.empty() ? "" : ", ", name);
+    if (name != tone)
+      rest += fmt::format("{}{}", rest.empty() ? "" : ", ", word_for(name, topic.x));
   if (!tone.empty() && !rest.empty())
     text += fmt::format(" Curves of one tone differ in {}.", rest);
   if (is_difference)
@@ -522,10 +538,10 @@ Answer answer(const schema::Reader& store, const Question& question) {
           .label = y_label(question, topic), .column = question.y, .logarithmic = question.log_y}};
   const bool crowded = curves.all.size() > most_in_legend;
   const bool has_theory = question.theory && curves.all.size() <= question.theory_up_to;
-  Styles styles(question, curves.all, names);
+  Styles styles(question, curves.all, names, topic.x);
   panel.scale = styles.scale();
   for (const GasCurve& gas : curves.all) {
-    Curve curve = measured(gas, names);
+    Curve curve = measured(gas, names, topic.x);
     const bool is_line =
         is_along_runs(topic) && !has_theory && (crowded || curve.x.size() > many_points);
     curve.look = is_line ? Look::line : Look::symbols;

@@ -222,6 +222,14 @@ std::string scale_commands(const ToneScale& scale, const std::array<double, 4>& 
          colour_box(frame, scale.label);
 }
 
+// Whether tics read as powers of ten: beside "1e-05", "0.0001" is of another kind. Over fewer
+// decades tics stand between the powers, too.
+bool spans_powers(const Axis& axis) {
+  if (!axis.logarithmic || !axis.low || !axis.high) return false;
+  constexpr double many_decades = 1e3, smallest = 1e-4, largest = 1e5;
+  return *axis.high > many_decades * *axis.low && (*axis.low < smallest || *axis.high > largest);
+}
+
 std::string axis_commands(const Axis& axis, char letter) {
   const auto bound = [](const std::optional<double>& value) {
     return value ? fmt::format("{:.8g}", *value) : std::string("*");
@@ -229,7 +237,8 @@ std::string axis_commands(const Axis& axis, char letter) {
   std::string text = fmt::format("set {}label {}\n", letter, in_quotes(axis.label));
   text += fmt::format("{} logscale {}\n", axis.logarithmic ? "set" : "unset", letter);
   text += fmt::format("set {}range [{}:{}]\n", letter, bound(axis.low), bound(axis.high));
-  text += fmt::format("set format {} '%g'\n", letter);  // tics may name another
+  text += fmt::format("set format {} '{}'\n", letter,
+                      spans_powers(axis) ? "10^{%T}" : "%g");  // tics may name another
   text += fmt::format("set {}tics {}\n", letter, axis.tics.empty() ? "autofreq" : axis.tics);
   text += fmt::format("set m{}tics {}\n", letter, axis.logarithmic ? "10" : "2");
   return text;
