@@ -42,9 +42,9 @@ CLI::App* add_document(CLI::App& app, std::string& kind) {
 }
 
 // Those that print a table or the like, and print JSON when asked.
-constexpr std::string_view with_json[] = {"plan",   "run",    "status", "explain", "query",
-                                          "theory", "verify", "retry",  "cancel",  "split",
-                                          "merge",  "recall", "cost"};
+constexpr std::string_view with_json[] = {"plan",   "run",    "status", "explain",    "query",
+                                          "theory", "verify", "retry",  "cancel",     "split",
+                                          "merge",  "recall", "cost",   "plot --list"};
 
 std::string names_with_json() {
   return fmt::format("{}", fmt::join(with_json, ", "));
@@ -54,7 +54,8 @@ std::string names_with_json() {
 void refuse_json_for(const CLI::App& app) {
   const auto commands = app.get_subcommands();
   if (commands.empty()) return;
-  const std::string name = commands.front()->get_name();
+  std::string name = commands.front()->get_name();
+  if (name == "plot" && commands.front()->count("--list") > 0) name = "plot --list";
   if (std::ranges::find(with_json, name) == std::end(with_json))
     throw CLI::ValidationError("--json",
                                fmt::format("{} prints no JSON; {} do", name, names_with_json()));

@@ -53,21 +53,18 @@ bool has_rows(const schema::Reader& store, const std::string& sql) {
   return store.query(sql + " LIMIT 1").next().has_value();
 }
 
-// "0.05, 0.4", of many the first and the last ones.
-std::string values_of(const schema::Reader& store, const std::string& sql) {
-  constexpr std::size_t most = 12, ends = 4;
-  std::vector<std::string> values;
+std::vector<schema::Value> values_of(const schema::Reader& store, const std::string& sql) {
+  std::vector<schema::Value> values;
   auto rows = store.query(sql);
-  while (const auto row = rows.next()) {
-    if (const auto* text = std::get_if<std::string>(&row->front())) values.push_back(*text);
-    if (const auto* real = std::get_if<double>(&row->front())) values.push_back(number_text(*real));
-    if (const auto* whole = std::get_if<std::int64_t>(&row->front()))
-      values.push_back(fmt::format("{}", *whole));
-  }
-  if (values.size() <= most) return fmt::format("{}", fmt::join(values, ", "));
-  const auto first = values.begin(), last = values.end();
-  return fmt::format("{}, ..., {} ({} values)", fmt::join(first, first + ends, ", "),
-                     fmt::join(last - ends, last, ", "), values.size());
+  while (const auto row = rows.next()) values.push_back(row->front());
+  return values;
+}
+
+std::string text_of(const schema::Value& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* real = std::get_if<double>(&value)) return number_text(*real);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
+  return "";
 }
 
 }  // namespace
@@ -83,9 +80,9 @@ Inventory inventory_of(const schema::Reader& store) {
     inventory.profiles.push_back(
         {.name = name,
          .variable = profile_variable(name),
-         .values = values_of(store, fmt::format("SELECT DISTINCT tau FROM {} ORDER BY tau",
-                                                profile_rows(words, name))),
-         .meaning = curve_meaning(name)});
+         .meaning = curve_meaning(name),
+         .taus = values_of(store, fmt::format("SELECT DISTINCT tau FROM {} ORDER BY tau",
+                                              profile_rows(words, name)))});
   inventory.quantities = {
       {.name = "tau_c", .meaning = "collisions until T is twice what Haff's law says"},
       {.name = "a2, a3, a4", .meaning = "mean over tau 5 to 15; a2@3:8 over another window"},
@@ -99,6 +96,17 @@ Inventory inventory_of(const schema::Reader& store) {
                                                 "IS NOT NULL ORDER BY value",
                                                 translated(name, words), job_rows(words)))});
   return inventory;
+}
+
+std::string listed(const std::vector<schema::Value>& values) {
+  constexpr std::size_t most = 12, ends = 4;
+  std::vector<std::string> texts;
+  texts.reserve(values.size());
+  for (const schema::Value& value : values) texts.push_back(text_of(value));
+  if (texts.size() <= most) return fmt::format("{}", fmt::join(texts, ", "));
+  const auto first = texts.begin(), last = texts.end();
+  return fmt::format("{}, ..., {} ({} values)", fmt::join(first, first + ends, ", "),
+                     fmt::join(last - ends, last, ", "), texts.size());
 }
 
 }  // namespace haff::campaign

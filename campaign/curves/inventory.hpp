@@ -15,11 +15,12 @@ struct Inventory {
     std::string name, meaning;
   };
   struct Profile {
-    std::string name, variable, values;  // tau at which it was taken
-    std::string meaning;
+    std::string name, variable, meaning;
+    std::vector<schema::Value> taus;  // at which it was taken
   };
   struct Parameter {
-    std::string name, values;
+    std::string name;
+    std::vector<schema::Value> values;
   };
   std::vector<Described> columns;     // that some finished run has
   std::vector<Profile> profiles;      // likewise
@@ -28,5 +29,8 @@ struct Inventory {
 };
 
 Inventory inventory_of(const schema::Reader& store);
+
+// "0.05, 0.4", of many the first and the last ones.
+std::string listed(const std::vector<schema::Value>& values);
 
 }  // namespace haff::campaign

@@ -20,7 +20,8 @@ namespace haff::schema {
 
 namespace {
 
-constexpr const char* example = "expected e.g. \"e = 0.9 AND N < 10000\"";
+constexpr const char* condition_example = "expected e.g. \"e = 0.9 AND N < 10000\"";
+constexpr const char* order_example = "expected e.g. \"seed, N DESC\"";
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -69,27 +70,37 @@ std::string translated(const Reader& store, const std::string& option, const std
   });
 }
 
-// SQLite's words, with what else could have been meant by a column that there is not.
-std::string explained(const Reader& store, std::string reason) {
+// SQLite's words, with what else could have been meant by a column that there is not, or an
+// example.
+std::string explained(const Reader& store, std::string reason, const char* example) {
   constexpr std::string_view sql = "SQL: ", unknown = "no such column: ";
   if (reason.starts_with(sql)) reason.erase(0, sql.size());
-  if (!reason.starts_with(unknown)) return reason;
+  if (!reason.starts_with(unknown)) return reason + "; " + example;
   std::vector<std::string> known =
       texts(store, "SELECT name FROM pragma_table_info('jobs') WHERE name NOT LIKE 'owner%'");
   known.emplace_back("N");
   return reason + "; " + suggestion(reason.substr(unknown.size()), known);
 }
 
+// What an option takes, as a complaint names it.
+struct Expected {
+  const char* option;
+  const char* form;
+  const char* example;
+};
+constexpr Expected a_condition{"--where", "a condition over the table jobs", condition_example};
+constexpr Expected an_order{"--order", "a list of terms to sort the table jobs by", order_example};
+
 // Compiles a statement around what was typed, and returns its first value.
-Value first_value(const Reader& store, const std::string& sql, const std::string& option,
-                  const std::string& typed, const std::string& expected) {
+Value first_value(const Reader& store, const std::string& sql, const std::string& typed,
+                  const Expected& expected) {
   try {
     Query query = store.query(sql);
     const auto row = query.next();
     return row ? row->front() : Value(Null{});
   } catch (const QueryError& error) {
-    throw QueryError(fmt::format("{} \"{}\" is not {}: {}; {}", option, typed, expected,
-                                 explained(store, error.what()), example));
+    throw QueryError(fmt::format("{} \"{}\" is not {}: {}", expected.option, typed, expected.form,
+                                 explained(store, error.what(), expected.example)));
   }
 }
 
@@ -107,16 +118,14 @@ std::string in_brackets(const std::string& sql) {
 
 void must_be_condition(const Reader& store, const std::string& typed,
                        const std::string& condition) {
-  const std::string expected = "a condition over the table jobs";
-  first_value(store, "SELECT 1 FROM jobs WHERE " + condition + " LIMIT 0", "--where", typed,
-              expected);
+  first_value(store, "SELECT 1 FROM jobs WHERE " + condition + " LIMIT 0", typed, a_condition);
   const Value other = first_value(
-      store, fmt::format("SELECT {0} FROM jobs WHERE {0} NOT IN (0, 1) LIMIT 1", condition),
-      "--where", typed, expected);
+      store, fmt::format("SELECT {0} FROM jobs WHERE {0} NOT IN (0, 1) LIMIT 1", condition), typed,
+      a_condition);
   if (!std::holds_alternative<Null>(other))
     throw QueryError(
         fmt::format("--where \"{}\" is not {}: it gives {}, neither true nor false; {}", typed,
-                    expected, shown(other), example));
+                    a_condition.form, shown(other), a_condition.example));
 }
 
 // Rows of the table jobs, pending and chosen, each as `chosen` beside what is to be done next for
@@ -165,7 +174,7 @@ Choice::Choice(const Reader& store, const std::string& where, const std::string&
     sorted_ = translated(store, "--order", order) + "\n";
     first_value(store,
                 fmt::format("SELECT row_number() OVER (ORDER BY {}) FROM jobs LIMIT 0", sorted_),
-                "--order", order, "a list of terms to sort the table jobs by");
+                order, an_order);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <variant>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "campaign/base/text/number_text.hpp"
 #include "campaign/base/text/printable.hpp"
 #include "campaign/base/text/text_table.hpp"
+#include "campaign/commands/json_output.hpp"
 #include "campaign/curves/answer.hpp"
 #include "campaign/curves/inventory.hpp"
 #include "campaign/plot/picture.hpp"
@@ -25,6 +27,37 @@
 namespace haff::campaign {
 namespace {
 
+nlohmann::ordered_json values_json(const std::vector<schema::Value>& values) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const schema::Value& value : values) {
+    if (const auto* text = std::get_if<std::string>(&value)) list.push_back(*text);
+    if (const auto* real = std::get_if<double>(&value)) list.push_back(*real);
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) list.push_back(*whole);
+  }
+  return list;
+}
+
+nlohmann::ordered_json list_json(const Inventory& inventory) {
+  using nlohmann::ordered_json;
+  const auto described = [](const std::vector<Inventory::Described>& all) {
+    ordered_json list = ordered_json::array();
+    for (const auto& each : all) list.push_back({{"name", each.name}, {"meaning", each.meaning}});
+    return list;
+  };
+  ordered_json profiles = ordered_json::array(), parameters = ordered_json::array();
+  for (const auto& each : inventory.profiles)
+    profiles.push_back({{"name", each.name},
+                        {"variable", each.variable},
+                        {"meaning", each.meaning},
+                        {"tau", values_json(each.taus)}});
+  for (const auto& each : inventory.parameters)
+    parameters.push_back({{"name", each.name}, {"values", values_json(each.values)}});
+  return {{"columns", described(inventory.columns)},
+          {"profiles", profiles},
+          {"quantities", described(inventory.quantities)},
+          {"parameters", parameters}};
+}
+
 void print_list(const Inventory& inventory) {
   TextTable columns({{"column", Align::left}, {"what", Align::left}});
   for (const auto& each : inventory.columns) columns.add({each.name, each.meaning});
@@ -33,11 +66,11 @@ void print_list(const Inventory& inventory) {
                       {"what", Align::left},
                       {"at tau", Align::left}});
   for (const auto& each : inventory.profiles)
-    profiles.add({each.name, each.variable, each.meaning, each.values});
+    profiles.add({each.name, each.variable, each.meaning, listed(each.taus)});
   TextTable quantities({{"quantity", Align::left}, {"what", Align::left}});
   for (const auto& each : inventory.quantities) quantities.add({each.name, each.meaning});
   TextTable parameters({{"parameter", Align::left}, {"values", Align::left}});
-  for (const auto& each : inventory.parameters) parameters.add({each.name, each.values});
+  for (const auto& each : inventory.parameters) parameters.add({each.name, listed(each.values)});
   say("Along a run, --against tau (or time, or an expression):\n\n{}\n", columns.text());
   if (!profiles.empty())
     say("Curves in themselves, --against their variable:\n\n{}\n", profiles.text());
@@ -77,7 +110,10 @@ bool is_plot_file(const std::filesystem::path& file) {
 int plot(const std::filesystem::path& path, const PlotOptions& options) {
   const schema::Reader store(path);
   if (options.list) {
-    print_list(inventory_of(store));
+    if (options.json)
+      print_json(list_json(inventory_of(store)));
+    else
+      print_list(inventory_of(store));
     return exit_complete;
   }
   const Answer result = answer(store, options.question);

@@ -71,6 +71,21 @@ TEST_CASE("json: run, verify, retry, explain, split, merge and recall") {
   CHECK(parsed(campaign(folder, {"theory", "--list", "--json"})).size() > 5);
 }
 
+TEST_CASE("json: plot --list, and no picture") {
+  const Folder folder;
+  plan(folder);
+  REQUIRE(campaign(folder, {"run"}).exit_code == 0);
+  const json list = parsed(campaign(folder, {"plot", "--list", "--json"}));
+  CHECK(list["columns"][0]["name"] == "time");
+  CHECK(list["quantities"].size() == 5);
+  for (const json& each : list["parameters"])
+    if (each["name"] == "e") CHECK(each["values"] == json({0.8, 0.9}));
+  const Outcome picture = campaign(folder, {"plot", "a2", "--json"});
+  CHECK(picture.exit_code == 2);
+  CHECK(json::parse(picture.err)["error"].get<std::string>().find("plot --list do") !=
+        std::string::npos);
+}
+
 TEST_CASE("json: verify of a fault, with its exit code") {
   const Folder folder;
   plan(folder);
