@@ -20,7 +20,7 @@ set(campaign_curves accuracy)
 set(campaign_paper results plot)
 set(campaign_figures curves paper)
 set(campaign_cluster run planning)
-set(campaign_report accuracy cluster)
+set(campaign_report curves cluster)
 set(campaign_commands run figures cluster report)
 set(campaign_folders base state job run planning results plot accuracy curves paper figures cluster
   report commands)

@@ -18,6 +18,7 @@
 #include "campaign/report/occupancy.hpp"
 #include "campaign/report/overview.hpp"
 #include "campaign/report/overview_json.hpp"
+#include "campaign/report/theory_table.hpp"
 #include "schema/store/averaged_tables.hpp"
 
 namespace haff::campaign {
@@ -130,6 +131,10 @@ std::string filled(std::string_view text, Value&& value_of) {
 
 }  // namespace
 
+std::vector<std::byte> page_tables(const schema::Reader& store) {
+  return schema::averaged_tables(store, {theory_table(store)});
+}
+
 std::string averages_version(const schema::Reader& store) {
   auto rows = store.query(
       "SELECT group_concat(status || ' ' || jobs || ' ' || coalesce(finished, ''), ', ') FROM "
@@ -161,7 +166,7 @@ std::string report_page(const schema::Reader& store, bool is_served) {
   require_page();
   return filled(asset("page.html"), [&](std::string_view name) -> std::string {
     if (name == "data") return script_text(page_data(store));
-    if (name == "averages") return base64(schema::averaged_tables(store));
+    if (name == "averages") return base64(page_tables(store));
     if (name == "served") return is_served ? "yes" : "no";
     if (name == "connect") return is_served ? "'self'" : "'none'";
     if (name.ends_with(".wasm")) return base64(std::as_bytes(std::span(asset(name))));

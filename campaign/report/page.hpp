@@ -4,8 +4,10 @@
 // program beside the browser.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "schema/store/store.hpp"
 
@@ -22,6 +24,10 @@ void require_page();
 // What changes while a run is on, as JSON: where the campaign stands (overview_json), and of what
 // the page's first part is made.
 std::string page_data(const schema::Reader& store);
+
+// The averaged tables of the store, with the table `theory` beside them (theory_table.hpp), as an
+// SQLite file.
+std::vector<std::byte> page_tables(const schema::Reader& store);
 
 // Changes when the averaged tables of the store do.
 std::string averages_version(const schema::Reader& store);

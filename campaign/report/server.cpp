@@ -18,7 +18,6 @@
 #include "campaign/base/process/signals.hpp"
 #include "campaign/base/text/error_text.hpp"
 #include "campaign/report/page.hpp"
-#include "schema/store/averaged_tables.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::campaign {
@@ -65,7 +64,7 @@ std::string new_token() {
 }
 
 std::string averages(const schema::Reader& store) {
-  const std::vector<std::byte> bytes = schema::averaged_tables(store);
+  const std::vector<std::byte> bytes = page_tables(store);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 

@@ -46,22 +46,38 @@ void bind(SQLite::Statement& insert, int place, const Value& value) {
       value);
 }
 
+// A new table, to which rows are added.
+class NewTable {
+ public:
+  NewTable(SQLite::Database& file, const std::string& name, const std::vector<std::string>& columns)
+      : insert_(created(file, name, columns)) {}
+
+  void add(const std::vector<Value>& row) {
+    for (std::size_t k = 0; k < row.size(); ++k) bind(insert_, static_cast<int>(k) + 1, row[k]);
+    insert_.exec();
+    insert_.reset();
+  }
+
+ private:
+  static SQLite::Statement created(SQLite::Database& file, const std::string& name,
+                                   const std::vector<std::string>& columns) {
+    std::string names, places;
+    for (const std::string& column : columns) {
+      const char* comma = names.empty() ? "" : ", ";
+      names += comma + column;
+      places += std::string(comma) + '?';
+    }
+    file.exec("CREATE TABLE " + name + " (" + names + ")");
+    return {file, "INSERT INTO " + name + " VALUES (" + places + ")"};
+  }
+
+  SQLite::Statement insert_;
+};
+
 void copy(const Reader& store, const Table& table, SQLite::Database& file) {
   Query rows = store.query(table.rows);
-  std::string columns, places;
-  for (const std::string& column : rows.columns()) {
-    const char* comma = columns.empty() ? "" : ", ";
-    columns += comma + column;
-    places += std::string(comma) + '?';
-  }
-  file.exec(std::string("CREATE TABLE ") + table.name + " (" + columns + ")");
-  SQLite::Statement insert(file,
-                           std::string("INSERT INTO ") + table.name + " VALUES (" + places + ")");
-  while (const auto row = rows.next()) {
-    for (std::size_t k = 0; k < row->size(); ++k) bind(insert, static_cast<int>(k) + 1, (*row)[k]);
-    insert.exec();
-    insert.reset();
-  }
+  NewTable copied(file, table.name, rows.columns());
+  while (const auto row = rows.next()) copied.add(*row);
 }
 
 struct Free {
@@ -70,11 +86,16 @@ struct Free {
 
 }  // namespace
 
-std::vector<std::byte> averaged_tables(const Reader& store) try {
+std::vector<std::byte> averaged_tables(const Reader& store,
+                                       const std::vector<ComputedTable>& beside) try {
   store.must_match_digests({Part::samples, Part::profiles, Part::results});
   SQLite::Database file(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   SQLite::Transaction transaction(file);
   for (const Table& table : tables) copy(store, table, file);
+  for (const ComputedTable& table : beside) {
+    NewTable computed(file, table.name, table.columns);
+    for (const auto& row : table.rows) computed.add(row);
+  }
   transaction.commit();
   sqlite3_int64 size = 0;
   const std::unique_ptr<unsigned char, Free> bytes(

@@ -98,6 +98,25 @@ test("theory is drawn beside the curves, and is no curve of its own", async () =
   assert.deepEqual(page.wrong, []);
 });
 
+test("theories are those of plot --theory, for columns and profiles, and are in the SQL", async () => {
+  const page = await open(report());
+  const show = (name) => page.locator("#curve-choices select").first().selectOption(name);
+  await show("a2");
+  for (const line of ["Enskog–Boltzmann, first order in a₂", "Enskog–Boltzmann, direct simulation"])
+    await page.getByLabel(line).uncheck();
+  assert.equal(await legend(page).count(), 6);
+  await page.getByLabel("first order in a₂").check();
+  await page.locator("#curves").screenshot({path: join(PICTURES, "theory.png")});
+  await show("gamma_ratio");
+  await page.getByLabel("energy equation, Gaussian velocities").waitFor();
+  await show("G_parallel");
+  await page.getByLabel("incompressible theory").waitFor();
+  await page.locator("#question-box textarea").fill("SELECT count(DISTINCT line) AS lines FROM theory WHERE name = 'a2'");
+  await page.locator("#question-box").getByText("Ask", {exact: true}).click();
+  await page.locator("#question-box td", {hasText: "2"}).first().waitFor();
+  assert.deepEqual(page.wrong, []);
+});
+
 test("a point reads as the store has it, by keyboard and by mouse", async () => {
   const page = await open(report());
   await page.locator("#curve-choices select").first().selectOption("a2");

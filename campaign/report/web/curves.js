@@ -8,22 +8,25 @@ const quantityLabels = {
   correlation_trace: "Tr G⁺(0)", largest_cluster: "largest cluster, part of the particles",
   rotational_temperature: "temperature of rotation [E(0)]",
   temperature_1: "temperature of species 1 [E(0)]", temperature_2: "temperature of species 2 [E(0)]",
-  rho: "ρ(c), velocity distribution", G_parallel: "G∥(r)", G_perpendicular: "G⊥(r)", S: "S(k)", time: "t, time",
+  rho: "ρ(c), velocity distribution", G_parallel: "G∥(r)", G_perpendicular: "G⊥(r)", S: "S(k)",
+  tail: "ρ(c) beyond c = 3", g: "g(r), first point at contact", E_perpendicular: "E⊥(k) [E(0) σ]",
+  E_parallel: "E∥(k) [E(0) σ]", enstrophy: "k² E⊥(k) [E(0)/σ]", cluster_sizes: "share of particles in clusters of s to 2s−1",
+  mean_cluster: "mean size of a particle's cluster", msd: "mean square displacement [σ²]",
+  diffusion: "D / ω [σ²]", vacf: "correlation of velocities with those at τ_w",
+  free_times: "density of free times", impacts: "density of impact parameters",
+  normal_speeds: "density of speeds of approach", time: "t, time",
 };
-const profileX = {rho: "c = v / v₀", G_parallel: "r / σ", G_perpendicular: "r / σ", S: "k σ"};
+const profileX = {rho: "c = v / v₀", tail: "c = v / v₀", G_parallel: "r / σ", G_perpendicular: "r / σ", S: "k σ",
+  g: "r / σ", E_perpendicular: "k σ", E_parallel: "k σ", enstrophy: "k σ", cluster_sizes: "s, particles",
+  msd: "τ − τ_w", diffusion: "τ − τ_w", vacf: "τ − τ_w", free_times: "ω t", impacts: "(b / σ)ᵈ⁻¹",
+  normal_speeds: "v_n (μ / T)^½"};
 const ofInterval = new Set(["gamma_ratio", "collision_rate", "pressure"]);  // before its τ
 const gasNames = ["d", "e", "n", "particles", "equilibrate", "sample_every", "effects"];
 const filterLabels = {d: "d", e: "e", n: "n", particles: "N", equilibrate: "equilibrate",
   sample_every: "sample every", effects: "effects"};
 
-// Theory that needs no more than the gas, drawn dotted beside each curve. Others: campaign theory.
-const isPlain = (gas) => gas.e !== null && gas.effects === "{}";
-const theories = {
-  temperature: {label: "Haff's law", holds: (gas) => isPlain(gas) && gas.tau[0] === 0,
-    value: (gas, tau) => gas.y[0] * Math.exp(-(1 - gas.e * gas.e) / gas.d * tau)},
-  gamma_ratio: {label: "Haff's law", holds: isPlain, value: () => 1},
-  rho: {label: "Gaussian", holds: () => true, value: (gas, c) => Math.exp(-c * c)},
-};
+// Theories are drawn beside each curve, in its colour, the k-th of them with the k-th of these dashes.
+const theoryDashes = [[2, 3], [9, 3], [9, 3, 2, 3], [4, 4], [14, 4], [1, 5]];
 
 // A colour for each value of the parameter that has most of them among these gases, a dash for each of
 // the next one.
@@ -38,11 +41,23 @@ function stylesOf(gases) {
   });
 }
 
+// A piece of a dashed line, for a label.
+function dashSample(dash) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
+  for (const [name, value] of Object.entries({width: 30, height: 8, "aria-hidden": "true"})) svg.setAttribute(name, value);
+  for (const [name, value] of Object.entries({x1: 0, y1: 4, x2: 30, y2: 4, stroke: "currentColor", "stroke-width": 2,
+    "stroke-dasharray": dash.join(" ")})) line.setAttribute(name, value);
+  svg.append(line);
+  return svg;
+}
+
 class Curves {
   constructor(database) {
     this.database = database;
     this.off = new Map();  // by name of a parameter: the values that are switched off
-    this.chosen = {quantity: null, x: "tau", tau: null, logX: false, logY: false, errors: true, theory: true};
+    this.chosen = {quantity: null, x: "tau", tau: null, logX: false, logY: false, errors: true};
+    this.withoutTheories = new Set();  // theories, by their names, that are switched off
     this.chart = new Chart(byId("curve-chart"), "Averages over realizations",
       {height: 460, onToggle: () => {}});
     this.chart.tools.append(make("button", {type: "button", onclick: () => this.save()}, "Download CSV"));
@@ -96,6 +111,7 @@ class Curves {
       if (!this.taus.includes(this.chosen.tau)) this.chosen.tau = this.taus[this.taus.length - 1];
     }
     this.gases = await this.read(quantity);
+    await this.readTheories(quantity);
     this.showChoices(quantity);
     this.showFilters();
     this.draw();
@@ -128,14 +144,36 @@ class Curves {
     return [...gases.values()];
   }
 
-  // x of a gas's points, by what is chosen.
-  xOf(gas) {
-    if (this.chosen.x === "time" && gas.time[0] !== null) return gas.time;
+  // Of each gas [{line, tau, time, y}], as the program has computed them.
+  async readTheories({name, table}) {
+    const tau = table === "mean_profiles" ? this.chosen.tau : null;
+    const {rows} = await this.database.query(
+      `SELECT ${gasNames.join(", ")}, line, x, time, value FROM theory WHERE name = ? AND tau IS ? ORDER BY rowid`,
+      {parameters: [name, tau]});
+    const gases = new Map(this.gases.map((gas) => [gas.key, gas]));
+    for (const gas of this.gases) gas.theories = [];
+    this.theories = [];  // their names
+    for (const row of rows) {
+      const gas = gases.get(JSON.stringify(row.slice(0, gasNames.length)));
+      if (!gas) continue;
+      const [line, x, time, value] = row.slice(gasNames.length);
+      if (!this.theories.includes(line)) this.theories.push(line);
+      let theory = gas.theories.find((one) => one.line === line);
+      if (!theory) gas.theories.push(theory = {line, tau: [], time: [], y: []});
+      theory.tau.push(x);
+      theory.time.push(time);
+      theory.y.push(value);
+    }
+  }
+
+  // x of a gas's points, or of those of a theory, by what is chosen.
+  xOf(gas, {tau, time} = gas) {
+    if (this.chosen.x === "time" && gas.time[0] !== null) return time;
     if (this.chosen.x === "haff") {
       const rate = gas.e === null ? NaN : (1 - gas.e * gas.e) / gas.d;
-      return gas.tau.map((tau) => rate * tau);
+      return tau.map((each) => rate * each);
     }
-    return gas.tau;
+    return tau;
   }
 
   showChoices({name, table}) {
@@ -147,6 +185,11 @@ class Curves {
     };
     const box = (key, label) => make("label", {}, make("input", {type: "checkbox",
       checked: this.chosen[key], onchange: (event) => change(key, event.target.checked)}), " " + label);
+    const theoryBox = (line, k) => make("label", {class: "theory"}, make("input", {type: "checkbox",
+      checked: !this.withoutTheories.has(line), onchange: (event) => {
+        event.target.checked ? this.withoutTheories.delete(line) : this.withoutTheories.add(line);
+        this.draw();
+      }}), " ", dashSample(theoryDashes[k % theoryDashes.length]), " " + line);
     const select = (label, options, chosen, onchange) => make("label", {}, label + " ",
       make("select", {onchange: (event) => onchange(event.target.value)}, ...options.map(([value, text]) =>
         make("option", {value, selected: String(value) === String(chosen)}, text))));
@@ -161,7 +204,7 @@ class Curves {
           (value) => change("tau", Number(value), true))
         : select("against", [["tau", "τ"], ["haff", "2γ₀τ"], ...table === "mean_series" && name !== "time" ? [["time", "t"]] : []],
           this.chosen.x, (value) => change("x", value)),
-      box("logX", "log x"), box("logY", "log y"), box("errors", "errors"), theories[name] ? box("theory", theories[name].label) : null,
+      box("logX", "log x"), box("logY", "log y"), box("errors", "errors"), ...this.theories.map(theoryBox),
     ].filter(Boolean));
   }
 
@@ -216,12 +259,14 @@ class Curves {
       key: gas.key, gas, label: this.labelOf(gas, shown), ...style(gas), x: this.xOf(gas), y: gas.y,
       error: gas.se.map((se, i) => se === null ? NaN : se * studentFactor(gas.realizations[i])),
     }));
-    const theory = theories[quantity.name];
-    if (theory && this.chosen.theory)
-      for (const curve of curves.slice())
-        if (theory.holds(curve.gas))
-          curves.push({key: "theory " + curve.key, of: curve.key, label: theory.label, colour: curve.colour,
-            dash: [2, 3], x: curve.x, y: curve.gas.tau.map((tau) => theory.value(curve.gas, tau))});
+    for (const curve of curves.slice())
+      for (const theory of curve.gas.theories) {
+        const x = this.xOf(curve.gas, theory);
+        if (this.withoutTheories.has(theory.line) || x.some((each) => each === null)) continue;
+        const dash = theoryDashes[this.theories.indexOf(theory.line) % theoryDashes.length];
+        curves.push({key: `theory ${theory.line} ${curve.key}`, of: curve.key, label: theory.line,
+          colour: curve.colour, dash, x, y: theory.y});
+      }
     const labels = {tau: "τ, collisions per particle", time: "t [σ (m/E(0))^½]", haff: "2γ₀τ"};
     this.chart.draw({curves, errors: this.chosen.errors,
       x: {label: isProfile ? profileX[quantity.name] ?? "x" : labels[this.chosen.x], log: this.chosen.logX},

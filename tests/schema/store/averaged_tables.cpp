@@ -48,6 +48,20 @@ std::vector<std::string> rows(SQLite::Database& file, const std::string& sql) {
 
 }  // namespace
 
+TEST_CASE("averaged tables: with a table that was computed") {
+  const Store store = two_realizations();
+  const auto content = averaged_tables(
+      store, {{"theory", {"name", "x", "value"}, {{Value("a2"), Value(0.5), Value(Null{})}}}});
+  const TemporaryFolder folder;
+  const auto path = folder / "averages.db";
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(content.data()),
+             static_cast<std::streamsize>(content.size()));
+  SQLite::Database file(path.string(), SQLite::OPEN_READONLY);
+  CHECK(rows(file, "SELECT name, x, value IS NULL FROM theory") ==
+        std::vector<std::string>{"a2|0.5|1|"});
+}
+
 TEST_CASE("averaged tables: a file that SQLite reads, with the rows of the views") {
   const Store store = two_realizations();
   const std::vector<std::byte> content = averaged_tables(store);
