@@ -62,16 +62,16 @@ class Simulation::Implementation {
     return state;
   }
 
-  static std::unique_ptr<EngineVariant> choose(const Model& model, const Gas& gas,
-                                               const State& state, SearchBackend backend,
-                                               const Threads& threads) {
+  static std::unique_ptr<EngineVariant> choose(const Model& model, Gas& gas, const State& state,
+                                               SearchBackend backend, const Threads& threads) {
     if (mixture_in(state) && !model.effects.contains("mixture"))
       throw std::invalid_argument("the state is of a mixture, and the model asks for none");
     if (model.counts_collisions) return observed_variant(model, gas, state, backend);
-    if (std::max(threads.count, threads.slabs) > 1 && backend == SearchBackend::simd &&
-        gas.tells_images_apart() &&
-        Slabs::most(gas.bricks, std::max(threads.count, threads.slabs)) > 1)
+    if (const unsigned slabs = Slabs::most(gas.bricks, std::max(threads.count, threads.slabs));
+        slabs > 1 && backend == SearchBackend::simd && gas.tells_images_apart()) {
+      gas.team.grow(std::min(threads.count, slabs));
       return parallel_variant(model, state, threads);
+    }
     for (const OtherPhysics& other : other_physics)
       if (model.effects.contains(std::string(other.effect)))
         return other.make(model, gas, state, backend);

@@ -33,7 +33,7 @@ class VariantOf : public EngineVariant {
   }
   void synchronize(Gas& gas) override {
     physics_.before_synchronization(gas.particles, gas.clock.now);
-    engine::synchronize(gas.particles, gas.clock, gas.box, physics_.masses());
+    engine::synchronize(gas.particles, gas.clock, gas.box, physics_.masses(), gas.team);
   }
   void store(State& state) const override { physics_.store(state); }
   void scale(int exponent) override { physics_.scale(exponent); }

@@ -11,6 +11,7 @@
 #include "engine/queue/ladder_queue.hpp"
 #include "engine/search/bricks.hpp"
 #include "engine/simulation.hpp"
+#include "engine/support/team.hpp"
 
 namespace haff::engine {
 
@@ -34,6 +35,8 @@ struct Gas {
   LadderQueue queue;
   Clock clock;
   Events events;
+  Team team;              // the threads that work on this gas
+  double event_rate = 0;  // per unit of time, approximately, since the last synchronization
   std::optional<Mixture> mixture;  // for rare questions; collisions know it from the pair geometry
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Rough spheres and disks. They touch when smooth ones would, so the SIMD search serves them, too:
-// compiled once for each target. Rough particles of two species use the plain search.
+// Rough spheres and disks, and mixtures of them. They touch when smooth ones would, so the SIMD
+// search serves them, too: compiled once for each target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/loop/rough_variant.cpp"
 #include <hwy/foreach_target.h>
@@ -15,7 +15,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-std::unique_ptr<EngineVariant> simd_rough_spheres(const Model& model, const State& start) {
+std::unique_ptr<EngineVariant> simd_rough_mixture(const Model& model, const State& start) {
+  using Physics = RoughCollision<TwoSpecies>;
+  Physics physics(model, TwoSpecies(model, start));
+  if (start.d == 2)
+    return std::make_unique<VariantOf<SimdSearch<2, TwoSpecies>, Physics>>(std::move(physics),
+                                                                           start);
+  return std::make_unique<VariantOf<SimdSearch<3, TwoSpecies>, Physics>>(std::move(physics), start);
+}
+
+std::unique_ptr<EngineVariant> simd_rough_particles(const Model& model, const State& start) {
+  if (model.effects.contains("mixture")) return simd_rough_mixture(model, start);
   RoughCollision physics(model);
   if (start.d == 2)
     return std::make_unique<VariantOf<SimdSearch<2>, RoughCollision<>>>(std::move(physics), start);
@@ -31,7 +41,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace haff::engine {
 
-HWY_EXPORT(simd_rough_spheres);
+HWY_EXPORT(simd_rough_particles);
 
 namespace {
 
@@ -47,10 +57,10 @@ std::unique_ptr<EngineVariant> plain_rough(const Model& model, const Gas& gas, c
 
 std::unique_ptr<EngineVariant> rough_variant(const Model& model, const Gas& gas, const State& start,
                                              SearchBackend backend) {
+  if (backend == SearchBackend::simd && gas.tells_images_apart())
+    return HWY_DYNAMIC_DISPATCH(simd_rough_particles)(model, start);
   if (model.effects.contains("mixture"))
     return plain_rough(model, gas, start, TwoSpecies(model, start));
-  if (backend == SearchBackend::simd && gas.tells_images_apart())
-    return HWY_DYNAMIC_DISPATCH(simd_rough_spheres)(model, start);
   return plain_rough(model, gas, start, HardSpheres());
 }
 

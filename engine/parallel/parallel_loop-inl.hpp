@@ -26,7 +26,6 @@
 
 #include "engine/parallel/one_piece_loop-inl.hpp"
 #include "engine/parallel/slab_loop-inl.hpp"
-#include "engine/parallel/team.hpp"
 #include "engine/parallel/zone_loop-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,11 +38,12 @@ class ParallelLoop {
       : gas_(gas),
         physics_(physics),
         division_(Slabs::most(gas.bricks, std::max(threads.count, threads.slabs))),
-        team_(std::clamp(threads.count, 1u, division_.regions)),
+        team_(gas.team),
         adapts_(threads.window <= 0),
         window_(adapts_ ? first_window : threads.window) {
-    division_.marks.resize(gas.bricks.count());
+    division_.marks.resize(2 * gas.bricks.count());
     division_.frozen.resize(gas.bricks.count());
+    soon_.resize(team_.size());
     for (unsigned k = 0; k < division_.regions; ++k) {
       regions_.push_back(std::make_unique<AnyRegion>(gas, division_, k));
       slabs_.push_back(std::make_unique<OfSlab>(gas, physics, *regions_[k]));
@@ -60,8 +60,11 @@ class ParallelLoop {
     };
     for_each_region([&](unsigned k) { slabs_[k]->predict(part(k), part(k + 1)); });
     divide();
-    std::fill(division_.marks.begin(), division_.marks.end(), never_marked);
-    const double rate = events_per_time(gas_) / division_.regions;
+    team_.for_parts(division_.marks.size(), [this](std::size_t begin, std::size_t end) {
+      std::fill(division_.marks.begin() + static_cast<std::ptrdiff_t>(begin),
+                division_.marks.begin() + static_cast<std::ptrdiff_t>(end), never_marked);
+    });
+    const double rate = gas_.event_rate / division_.regions;
     for_each_region([&](unsigned k) {
       AnyRegion& region = *regions_[k];
       region.queue.restart(rate, prefetching ? foresight : 0);
@@ -114,19 +117,33 @@ class ParallelLoop {
   static constexpr double after_repair = 0.8;
   static constexpr double after_success = 1.0004;
 
-  // The slabs for the period to come. The work in a layer is the number of its particles that soon
-  // have an event.
+  // The slabs for the period to come. The work in a layer of cells is the number of its particles
+  // that soon have an event.
   void divide() {
     const double soon = 0.02 * expected_period(gas_);
-    std::vector<std::uint32_t> work(gas_.bricks.layers());
-    for (std::uint32_t p = 0; p < gas_.particles.size(); ++p)
-      if (gas_.queue[p].time < soon) ++work[gas_.bricks.layer_of(gas_.queue[p].cell)];
+    team_.run([&](unsigned thread) {
+      auto& work = soon_[thread];
+      work.assign(gas_.bricks.cells(), 0);
+      for_own_part(thread, [&](const Event& event) {
+        if (event.time < soon) ++work[event.cell[gas_.bricks.last_axis()]];
+      });
+    });
+    std::vector<std::uint32_t> work(gas_.bricks.cells());
+    for (const auto& of_thread : soon_)
+      for (std::size_t layer = 0; layer < work.size(); ++layer) work[layer] += of_thread[layer];
     division_.slabs.divide(gas_.bricks, work, division_.regions);
-    for (std::uint32_t p = 0; p < gas_.particles.size(); ++p) {
-      Event& event = gas_.queue[p];
-      event.owner = static_cast<std::uint8_t>(
-          division_.slabs.slab_of_layer(gas_.bricks.layer_of(event.cell)));
-    }
+    team_.run([&](unsigned thread) {
+      for_own_part(thread,
+                   [&](Event& event) { event.owner = division_.slabs.slab_of(event.cell); });
+    });
+  }
+
+  // Visits the events of a thread's part of all particles.
+  template <class Visit>
+  void for_own_part(unsigned thread, const Visit& visit) {
+    const std::size_t end = team_.part(gas_.particles.size(), thread + 1);
+    for (std::size_t p = team_.part(gas_.particles.size(), thread); p < end; ++p)
+      visit(gas_.queue[static_cast<std::uint32_t>(p)]);
   }
 
   // Returns false if the run is over.
@@ -273,7 +290,7 @@ class ParallelLoop {
   Gas& gas_;
   Physics& physics_;
   Division division_;
-  Team team_;
+  Team& team_;
   std::vector<std::unique_ptr<AnyRegion>> regions_;
   std::vector<std::unique_ptr<OfSlab>> slabs_;
   std::vector<std::unique_ptr<OfZone>> zones_;
@@ -282,6 +299,7 @@ class ParallelLoop {
   double window_;    // collisions per particle
   double rate_ = 0;  // collisions per unit of time
   Windows windows_;
+  std::vector<std::vector<std::uint32_t>> soon_;  // events in each layer, as each thread counts
   std::vector<CollisionRecord> merged_, other_;
 };
 

@@ -30,7 +30,10 @@ std::unique_ptr<EngineVariant> on_threads(Physics physics, const State& start,
 std::unique_ptr<EngineVariant> simd_on_threads(const Model& model, const State& start,
                                                const Threads& threads) {
   const bool rough = model.effects.contains("roughness");
-  if (model.effects.contains("mixture"))
+  const bool mixed = model.effects.contains("mixture");
+  if (rough && mixed)
+    return on_threads<TwoSpecies>(RoughCollision(model, TwoSpecies(model, start)), start, threads);
+  if (mixed)
     return on_threads<TwoSpecies>(
         SmoothCollision(AnyRestitutionModel(model), TwoSpecies(model, start)), start, threads);
   if (rough) return on_threads<HardSpheres>(RoughCollision(model), start, threads);
@@ -48,24 +51,8 @@ namespace haff::engine {
 
 HWY_EXPORT(simd_on_threads);
 
-namespace {
-
-// Rough particles of two species use the plain search.
-template <int d>
-std::unique_ptr<EngineVariant> rough_mixture(const Model& model, const State& start,
-                                             const Threads& threads) {
-  using Search = PlainSearch<TwoSpecies, NearbyNearestImage, d>;
-  return std::make_unique<HWY_NAMESPACE::ParallelVariantOf<Search, RoughCollision<TwoSpecies>, d>>(
-      RoughCollision(model, TwoSpecies(model, start)), start, threads);
-}
-
-}  // namespace
-
 std::unique_ptr<EngineVariant> parallel_variant(const Model& model, const State& start,
                                                 const Threads& threads) {
-  if (model.effects.contains("roughness") && model.effects.contains("mixture"))
-    return start.d == 2 ? rough_mixture<2>(model, start, threads)
-                        : rough_mixture<3>(model, start, threads);
   return HWY_DYNAMIC_DISPATCH(simd_on_threads)(model, start, threads);
 }
 

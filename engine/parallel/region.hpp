@@ -57,8 +57,8 @@ struct alignas(64) Region {
   }
 
   // Sends an event after the window to the queue of the slab that the particle is in.
-  void send(std::uint32_t p, Event& event, unsigned layer) {
-    event.owner = static_cast<std::uint8_t>(division.slabs.slab_of_layer(layer));
+  void send(std::uint32_t p, Event& event) {
+    event.owner = division.slabs.slab_of(event.cell);
     outbox[event.owner].push_back(p);
   }
   template <class Regions>

@@ -108,8 +108,7 @@ class RegionEvents {
   // Sends the event of p to the queue of the slab that p is in, for a later window.
   template <class AnyRegion>
   void send(std::uint32_t p, AnyRegion& from) {
-    Event& event = gas_.queue[p];
-    from.send(p, event, gas_.bricks.layer_of(event.cell));
+    from.send(p, gas_.queue[p]);
   }
 
   HWY_INLINE void set_prediction(std::uint32_t p, const Contact& contact) {

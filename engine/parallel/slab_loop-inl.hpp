@@ -3,8 +3,8 @@
 // The first phase of a window: every thread works off the events inside its slab, in their order.
 //
 // An event that needs something outside of the slab is deferred to the zone around that border, and
-// the bricks around it are frozen until then, because the event may change what is there: so an
-// event that comes near a frozen brick is deferred, too.
+// the cells around it are frozen until then, because the event may change what is there: so an
+// event that comes near a frozen cell is deferred, too.
 //
 // This file is compiled once for each SIMD target, hence its place in HWY_NAMESPACE.
 #if defined(HAFF_ENGINE_SLAB_LOOP_INL) == defined(HWY_TARGET_TOGGLE)
@@ -133,16 +133,16 @@ class SlabLoop
   }
   void defer_to_zone(std::uint32_t p, Cell here) {
     if (!slab_.is_near_border(here)) done_.violated = true;
-    region_.deferred[division_.slabs.zone_of_layer(this->gas_.bricks.layer_of(here))].push_back(
-        {this->now_, p});
+    region_.deferred[division_.slabs.zone_of(here)].push_back({this->now_, p});
   }
 
   // Freezes the cells around a cell, those in the own slab.
   void freeze(Cell cell) {
     const auto bricks = this->gas_.bricks.template around<dimension>(cell).brick;
-    const bool own = slab_.holds(cell);
-    const bool next = slab_.holds(cell, cell[this->gas_.bricks.last_axis()] % 2 == 1 ? 1 : -1);
+    const bool own = slab_.holds_brick_of(cell);
+    const bool next = slab_.holds_brick_next_to(cell);
     // The first half of the bricks is in the layer of the cell, the second half in the next one.
+    // Nothing in this slab reads a brick that belongs to two slabs.
     for (std::size_t n = 0; n < bricks.size(); ++n) {
       if (!(n < bricks.size() / 2 ? own : next)) continue;
       const std::uint32_t brick = bricks[n] / Bricks::slots;
@@ -164,7 +164,8 @@ class SlabLoop
   HWY_INLINE void keep(std::uint32_t p) { done_.log.save(p, this->gas_.queue[p]); }
   HWY_INLINE void touch(Cell cell) {
     if (HWY_UNLIKELY(!slab_.is_deep(cell)))
-      division_.marks[this->gas_.bricks.brick_of(cell) / Bricks::slots] =
+      division_.marks[Division::mark_of(this->gas_.bricks.brick_of(cell),
+                                        cell[this->gas_.bricks.last_axis()] % 2)] =
           static_cast<float>(this->now_);
   }
   HWY_INLINE void meet(std::uint32_t p, std::uint32_t q) {

@@ -4,8 +4,15 @@
 
 #include <algorithm>
 
+#include "engine/initial.hpp"
+#include "engine/threads.hpp"
+
 namespace haff::engine {
 namespace {
+
+// Of a thread that makes a gas faster (threads.hpp).
+constexpr std::uint32_t least_particles = 50'000;
+constexpr std::uint32_t least_cells = 24;
 
 // Cells on either side of a border that belong to its zone, if the slabs have room for them. What
 // has to wait at a border spreads by less than a cell within a window.
@@ -13,14 +20,23 @@ constexpr std::uint32_t widest_zone = 14;
 
 }  // namespace
 
+unsigned useful_threads(std::uint32_t particles, double n, int d) {
+  const Box box(box_side(n, particles, d), d);
+  if (!Bricks::fits(box)) return 1;
+  const std::uint32_t slabs =
+      std::min(particles / least_particles, Bricks::cells_along(box, particles) / least_cells);
+  return std::clamp(slabs, 1u, 255u);
+}
+
 unsigned Slabs::most(const Bricks& bricks, unsigned wanted) {
-  return std::max(1u, std::min({wanted, bricks.layers() / fewest_layers, 255u}));
+  return std::max(1u, std::min({wanted, bricks.cells() / fewest_cells, 255u}));
 }
 
 void Slabs::divide(const Bricks& bricks, std::span<const std::uint32_t> work, unsigned slabs) {
-  const std::uint32_t layers = bricks.layers();
-  std::vector<std::uint64_t> below(layers + 1);  // work below each layer
-  for (std::uint32_t layer = 0; layer < layers; ++layer)
+  axis_ = bricks.last_axis();
+  const std::uint32_t cells = bricks.cells();
+  std::vector<std::uint64_t> below(cells + 1);  // work below each layer
+  for (std::uint32_t layer = 0; layer < cells; ++layer)
     below[layer + 1] = below[layer] + work[layer];
 
   std::vector<std::uint32_t> first;  // layer of each slab
@@ -30,27 +46,27 @@ void Slabs::divide(const Bricks& bricks, std::span<const std::uint32_t> work, un
                                             below.begin());
     if (layer > 0 && share - below[layer - 1] < below[layer] - share) --layer;
     // Room for the slabs before and after.
-    first.push_back(std::clamp(layer, k == 0 ? 0 : first.back() + fewest_layers,
-                               layers - (slabs - k) * fewest_layers));
+    first.push_back(std::clamp(layer, k == 0 ? 0 : first.back() + fewest_cells,
+                               cells - (slabs - k) * fewest_cells));
   }
   first.front() = 0;
-  first.push_back(layers);
+  first.push_back(cells);
 
-  std::uint32_t thinnest = layers;
+  std::uint32_t thinnest = cells;
   for (unsigned k = 0; k < slabs; ++k) thinnest = std::min(thinnest, first[k + 1] - first[k]);
-  const std::uint32_t zone_cells = std::min(widest_zone, thinnest);  // half of it
+  const std::uint32_t zone_cells = std::min(widest_zone, thinnest / 2);
 
   slabs_.clear();
   zones_.clear();
-  slab_of_layer_.assign(layers, 0);
-  zone_of_layer_.assign(layers, 0);
+  slab_of_.assign(cells, 0);
+  zone_of_.assign(cells, 0);
   for (unsigned k = 0; k < slabs; ++k) {
     slabs_.emplace_back(bricks, first[k], first[k + 1] - first[k], zone_cells);
     zones_.emplace_back(bricks, first[k], zone_cells);
     const std::uint32_t middle = (first[k] + first[k + 1]) / 2;
     for (std::uint32_t layer = first[k]; layer < first[k + 1]; ++layer) {
-      slab_of_layer_[layer] = static_cast<std::uint8_t>(k);
-      zone_of_layer_[layer] = static_cast<std::uint8_t>(layer < middle ? k : (k + 1) % slabs);
+      slab_of_[layer] = static_cast<std::uint8_t>(k);
+      zone_of_[layer] = static_cast<std::uint8_t>(layer < middle ? k : (k + 1) % slabs);
     }
   }
 }

@@ -10,8 +10,9 @@
 // immaterial. If one does, then a cell of a particle of Y is next to (or the same as) a cell of a
 // particle of X, since an event reads the cells next to those of its particles and changes only
 // these. It is not deep inside the slab, since X reads nothing there; so Y has left its time as a
-// mark on its brick, and X finds this mark, which is later than its own time, in the bricks that it
-// reads. This is always noticed: the window is undone and worked off in one piece.
+// mark on its layer of its brick, and X finds this mark, which is later than its own time, in the
+// layers of bricks that it reads. This is always noticed: the window is undone and worked off in
+// one piece.
 //
 // An event also asks whether its partner has collided. If the partner is not in a cell next to that
 // of the event's particle, it has; and if the collision came later than the event, the partner has
@@ -95,9 +96,16 @@ class ZoneLoop
 
   bool may_touch(Cell cell, double time) const {
     if (!zone_.may_work_in(cell)) return false;
+    // The first half of the bricks has the layer of the cell and one next to it; of the second
+    // half, one layer is next to the cell.
+    const auto bricks = this->gas_.bricks.template around<dimension>(cell).brick;
+    const std::uint32_t near = 1 - cell[this->gas_.bricks.last_axis()] % 2;
     float latest = never_marked;
-    for (const std::uint32_t brick : this->gas_.bricks.template around<dimension>(cell).brick)
-      latest = std::max(latest, division_.marks[brick / Bricks::slots]);
+    for (std::size_t n = 0; n < bricks.size() / 2; ++n)
+      latest = std::max({latest, division_.marks[Division::mark_of(bricks[n], 0)],
+                         division_.marks[Division::mark_of(bricks[n], 1)]});
+    for (std::size_t n = bricks.size() / 2; n < bricks.size(); ++n)
+      latest = std::max(latest, division_.marks[Division::mark_of(bricks[n], near)]);
     // Rounding a time keeps the order; so a mark that is rounded to the same number may be later.
     return latest < static_cast<float>(time);
   }

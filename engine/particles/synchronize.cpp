@@ -25,21 +25,27 @@ constexpr double largest_energy = 4;
 // Below this energy, squares lose digits, and the scaling factor would overflow.
 constexpr double smallest_normal = 1e-290;
 
+// Returns the kinetic energy per particle.
 template <class Masses>
-void rescale(std::span<Particle> particles, Clock& clock, const Masses& masses) {
+double rescale(std::span<Particle> particles, Clock& clock, const Masses& masses) {
   int doublings = 0;
   double energy = kinetic_energy<Masses>(particles, masses);
   if (!std::isfinite(energy)) throw PhysicsError("the kinetic energy is not finite");
-  if (energy < smallest_normal) return;  // no particle moves
+  if (energy < smallest_normal) return energy;  // no particle moves
   for (; energy < smallest_energy; energy *= 4) ++doublings;
   for (; energy > largest_energy; energy /= 4) --doublings;
-  if (doublings == 0) return;
+  if (doublings == 0) return energy;
   const double factor = std::ldexp(1.0, doublings);
   for (Particle& p : particles)
     for (double& v : p.velocity) v *= factor;
   clock.exponent += doublings;
   clock.before.virial *= factor;
   clock.before.dissipated *= factor * factor;
+  return kinetic_energy<Masses>(particles, masses);
+}
+
+double energy_per_particle(double squares, std::size_t particles) {
+  return 0.5 * squares / static_cast<double>(particles);
 }
 
 // Adds the tally of this period to that of earlier ones. The two are kept apart until then because
@@ -70,8 +76,7 @@ void audit(std::span<const Particle> particles, Clock& clock, double allowed_ove
 
 template <class Masses>
 void start(std::span<Particle> particles, Clock& clock, const Masses& masses) {
-  rescale(particles, clock, masses);
-  clock.energy = kinetic_energy<Masses>(particles, masses);
+  clock.energy = rescale(particles, clock, masses);
 }
 
 Tally take_tally(Clock& clock) {
@@ -96,14 +101,16 @@ double Clock::time() const {
 }
 
 template <class Masses>
-void synchronize(std::span<Particle> particles, Clock& clock, const Box& box,
-                 const Masses& masses) {
-  for (Particle& p : particles) {
-    advance(p, clock.now);
-    p.position = wrapped(p.position, box);
-    p.time = 0;
-    p.changes = 0;
-  }
+void synchronize(std::span<Particle> particles, Clock& clock, const Box& box, const Masses& masses,
+                 Team& team) {
+  team.for_parts(particles.size(), [&](std::size_t begin, std::size_t end) {
+    for (Particle& p : particles.subspan(begin, end - begin)) {
+      advance(p, clock.now);
+      p.position = wrapped(p.position, box);
+      p.time = 0;
+      p.changes = 0;
+    }
+  });
   settle(clock);
   clock.taken = 0;
   clock.start = clock.time();
@@ -113,7 +120,7 @@ void synchronize(std::span<Particle> particles, Clock& clock, const Box& box,
       clock.energy > 0 ? std::sqrt(kinetic_energy<Masses>(particles, masses) / clock.energy) : 1;
   const double momentum = remove_momentum(particles, masses) * std::min(slowed, 1.0);
   clock.invariants.momentum_removed = std::max(clock.invariants.momentum_removed, momentum);
-  sort_in_space(particles, box);
+  sort_in_space(particles, box, team);
   start(particles, clock, masses);  // sums in the new order, as a run that is resumed here would
 }
 
@@ -123,9 +130,13 @@ double remove_momentum(std::span<Particle> particles, const Masses& masses) {
   for (const Particle& p : particles)
     for (std::size_t k = 0; k < 3; ++k) total[k] += masses.of(p) * p.velocity[k];
   const double mass = masses.of_all(particles.size());
-  for (Particle& p : particles)
-    for (std::size_t k = 0; k < 3; ++k) p.velocity[k] -= total[k] / mass;
-  const double energy = kinetic_energy<Masses>(particles, masses);
+  const Vector drift{total[0] / mass, total[1] / mass, total[2] / mass};
+  double squares = 0;  // of all velocities, times the masses
+  for (Particle& p : particles) {
+    for (std::size_t k = 0; k < 3; ++k) p.velocity[k] -= drift[k];
+    squares += masses.of(p) * dot(p.velocity, p.velocity);
+  }
+  const double energy = energy_per_particle(squares, particles.size());
   return energy > 0 ? std::sqrt(dot(total, total) / (mass * 2 * energy)) : 0;
 }
 
@@ -133,7 +144,7 @@ template <class Masses>
 double kinetic_energy(std::span<const Particle> particles, const Masses& masses) {
   double sum = 0;
   for (const Particle& p : particles) sum += masses.of(p) * dot(p.velocity, p.velocity);
-  return 0.5 * sum / static_cast<double>(particles.size());
+  return energy_per_particle(sum, particles.size());
 }
 
 State to_state(std::span<const Particle> particles, const Clock& clock, const Box& box) {
@@ -184,13 +195,13 @@ std::int64_t next_synchronization(std::int64_t collisions, std::size_t particles
 
 template void start(std::span<Particle>, Clock&, const EqualMasses&);
 template void audit(std::span<const Particle>, Clock&, double, const EqualMasses&, const Rotation&);
-template void synchronize(std::span<Particle>, Clock&, const Box&, const EqualMasses&);
+template void synchronize(std::span<Particle>, Clock&, const Box&, const EqualMasses&, Team&);
 template double remove_momentum(std::span<Particle>, const EqualMasses&);
 template double kinetic_energy(std::span<const Particle>, const EqualMasses&);
 
 template void start(std::span<Particle>, Clock&, const MixedMasses&);
 template void audit(std::span<const Particle>, Clock&, double, const MixedMasses&, const Rotation&);
-template void synchronize(std::span<Particle>, Clock&, const Box&, const MixedMasses&);
+template void synchronize(std::span<Particle>, Clock&, const Box&, const MixedMasses&, Team&);
 template double remove_momentum(std::span<Particle>, const MixedMasses&);
 template double kinetic_energy(std::span<const Particle>, const MixedMasses&);
 

@@ -7,15 +7,13 @@
 //   - Positions advance to the present time and are wrapped into the box; the particles' clocks
 //     restart at zero. This keeps event times short however long the gas has cooled.
 //   - Rounding creates a total momentum that does not cool, and that would carry all the energy
-//   near
-//     T/T0 = 1e-32. The momentum is set to zero, and the amount is recorded.
+//     near T/T0 = 1e-32. The momentum is set to zero, and the amount is recorded.
 //   - When the gas has cooled or has been heated, the velocities are multiplied by a power of two,
 //     so that numbers stay near 1 at any temperature. This is exact, and so is the inverse scaling
 //     of time.
 //   - The particles are sorted along a space-filling curve (spatial_order.hpp). The curve depends
-//   on
-//     the box alone: the order is part of the trajectory's bits, since sums run along it; the size
-//     of the cells is not.
+//     on the box alone: the order is part of the trajectory's bits, since sums run along it; the
+//     size of the cells is not.
 #pragma once
 
 #include <span>
@@ -25,6 +23,7 @@
 #include "engine/particles/clock.hpp"
 #include "engine/particles/masses.hpp"
 #include "engine/particles/particle.hpp"
+#include "engine/support/team.hpp"
 
 namespace haff::engine {
 
@@ -43,9 +42,16 @@ template <class Masses = EqualMasses>
 void audit(std::span<const Particle> particles, Clock& clock, double allowed_overlap,
            const Masses& masses = {}, const Rotation& rotation = {});
 
+// Sums over particles are not divided among the threads: they run in the order of memory.
+template <class Masses = EqualMasses>
+void synchronize(std::span<Particle> particles, Clock& clock, const Box& box, const Masses& masses,
+                 Team& team);
 template <class Masses = EqualMasses>
 void synchronize(std::span<Particle> particles, Clock& clock, const Box& box,
-                 const Masses& masses = {});
+                 const Masses& masses = {}) {
+  Team alone;
+  synchronize(particles, clock, box, masses, alone);
+}
 
 // The image of a position in [0, L).
 Vector wrapped(Vector position, const Box& box);

@@ -10,12 +10,8 @@ namespace haff::engine {
 Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inverse_(box.inverse) {
   if (particles > particle_in(particle_bits))
     throw std::length_error("the engine holds at most 2^28 - 1 particles");
-  const double own = smallest_occupancy * box.volume() / particles;
-  const double cell = std::max(smallest_cell, box.d == 2 ? std::sqrt(own) : std::cbrt(own));
-  // At least two bricks along an axis; with one, the two neighbours of a brick would be the same.
-  const auto bricks = static_cast<std::uint32_t>(
-      std::clamp(box.side / (2 * cell), 2.0, static_cast<double>(most_cells / 2)));
-  cells_ = 2 * bricks;
+  cells_ = cells_along(box, particles);
+  const std::uint32_t bricks = cells_ / 2;
   cell_side_ = box.side / cells_;
   const std::uint32_t layers = box.d == 2 ? 1 : bricks;
   for (std::uint32_t axis = 0, stride = slots; axis < 3; ++axis, stride *= bricks) {
@@ -37,9 +33,19 @@ Bricks::Bricks(const Box& box, std::uint32_t particles) : side_(box.side), inver
   clear();
 }
 
-void Bricks::clear() {
-  std::fill(lines_.begin(), lines_.end(), Line{});
-  for (auto& layer : overflow_) layer.clear();
+std::uint32_t Bricks::cells_along(const Box& box, std::uint32_t particles) {
+  const double own = smallest_occupancy * box.volume() / particles;
+  const double cell = std::max(smallest_cell, box.d == 2 ? std::sqrt(own) : std::cbrt(own));
+  // At least two bricks along an axis; with one, the two neighbours of a brick would be the same.
+  return 2 * static_cast<std::uint32_t>(
+                 std::clamp(box.side / (2 * cell), 2.0, static_cast<double>(most_cells / 2)));
+}
+
+void Bricks::clear_layers(std::uint32_t begin, std::uint32_t end) {
+  const std::uint32_t in_layer = in_layer_ / slots;
+  std::fill(lines_.begin() + std::ptrdiff_t{begin} * in_layer,
+            lines_.begin() + std::ptrdiff_t{end} * in_layer, Line{});
+  for (std::uint32_t layer = begin; layer < end; ++layer) overflow_[layer].clear();
 }
 
 Cell Bricks::locate(const Vector& position) const {

@@ -81,11 +81,14 @@ class Bricks {
 
   // Whether the box is large enough for four cells along an axis.
   static bool fits(const Box& box) { return box.side >= 4 * smallest_cell; }
+  // The number of cells along an axis, for so many particles.
+  static std::uint32_t cells_along(const Box& box, std::uint32_t particles);
   // With six cells along an axis, particles in neighbouring cells are less than half a box apart,
   // so there is no doubt about the nearest image.
   bool tell_images_apart() const { return cells_ >= 6; }
 
-  void clear();
+  void clear() { clear_layers(0, layers_); }
+  void clear_layers(std::uint32_t begin, std::uint32_t end);
   Cell locate(const Vector& position) const;  // the cell of a wrapped position
   void insert(std::uint32_t particle, Cell cell);
 
@@ -104,6 +107,7 @@ class Bricks {
   // Bricks form layers along the last axis.
   std::uint32_t layers() const { return layers_; }
   std::uint32_t layer_of(Cell cell) const { return cell[last_axis_] / 2; }
+  std::uint32_t cells() const { return cells_; }  // along an axis
   unsigned last_axis() const { return last_axis_; }
   std::size_t count() const { return lines_.size(); }
 

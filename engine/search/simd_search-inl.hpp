@@ -262,28 +262,28 @@ class SimdSearch {
   HWY_INLINE Contact first_of(std::uint32_t p, std::size_t count, const std::uint32_t* candidates,
                               double now) {
     const Reals d;
-    First first(p);
+    First first(count);
     Approach current = meet<fresh>(p, candidates, now);
     std::size_t k = 0;
     for (; k + hn::MaxLanes(d) < count; k += hn::MaxLanes(d)) {
       const Approach next = meet<fresh>(p, candidates + k + hn::MaxLanes(d), now);
-      first.take(current, candidates + k);
+      first.take(current, k);
       current = next;
     }
-    first.take(current, candidates + k);
+    first.take(current, k);
 
     const V earliest = hn::MinOfLanes(d, first.time);
     std::uint8_t mask = 0;
     hn::StoreMaskBits(d, hn::Eq(first.time, earliest), &mask);
     const std::size_t bits = mask;
-    alignas(32) std::array<std::uint64_t, hn::MaxLanes(Reals())> slot;
-    hn::Store(first.slot, Names(), slot.data());
+    alignas(32) std::array<std::uint64_t, hn::MaxLanes(Reals())> place;
+    hn::Store(first.place, Names(), place.data());
     const double time = hn::GetLane(earliest);
     if (HWY_UNLIKELY((int{(bits & (bits - 1)) != 0} & int{time < never}) |
                      int{!hn::AllFalse(d, hn::MaskFromVec(first.tie))}))
       return first_by_id(p, count, candidates, now);
-    return {time, Bricks::particle_in(static_cast<std::uint32_t>(
-                      slot[static_cast<std::size_t>(std::countr_zero(bits))]))};
+    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+    return {time, Bricks::particle_in(candidates[place[lane] + lane])};
   }
 
   // The same, one candidate after the other: for two that touch at exactly the same time.
@@ -356,15 +356,15 @@ class SimdSearch {
 
   using Names = hn::RebindToUnsigned<Reals>;
 
-  // Of the candidates seen in each lane so far: the time of the first contact, and the slot of the
-  // partner.
+  // Of the candidates seen in each lane so far: the time of the first contact, and the place in the
+  // list of the vector that the partner was in; at first that after the last candidate, where p is.
+  // (To load the partner itself from the list takes longer: the list has just been written in other
+  // pieces, so the load has to wait until all that was written before has reached the cache.)
   struct First {
-    HWY_INLINE explicit First(std::uint32_t p)
-        : time(hn::Set(Reals(), never)),
-          slot(hn::Set(Names(), std::uint64_t{p} << Bricks::particle_shift)),
-          tie(hn::Zero(Reals())) {}
+    HWY_INLINE explicit First(std::size_t count)
+        : time(hn::Set(Reals(), never)), place(hn::Set(Names(), count)), tie(hn::Zero(Reals())) {}
 
-    HWY_INLINE void take(const Approach& pair, const std::uint32_t* candidates) {
+    HWY_INLINE void take(const Approach& pair, std::size_t k) {
       const Reals d;
       const V flight = hn::Div(hn::Max(pair.gap, hn::Zero(d)),
                                hn::Sub(hn::Sqrt(pair.discriminant), pair.approach));
@@ -375,13 +375,11 @@ class SimdSearch {
       const auto earlier = hn::Lt(at, time);
       tie = hn::Or(tie, hn::VecFromMask(d, hn::Eq(at, time)));
       time = hn::IfThenElse(earlier, at, time);
-      slot = hn::IfThenElse(
-          hn::RebindMask(Names(), earlier),
-          hn::PromoteTo(Names(), hn::LoadU(hn::Rebind<std::uint32_t, Reals>(), candidates)), slot);
+      place = hn::IfThenElse(hn::RebindMask(Names(), earlier), hn::Set(Names(), k), place);
     }
 
     V time;
-    hn::Vec<Names> slot;
+    hn::Vec<Names> place;
     V tie;  // all bits set where two touched at the same time
   };
 

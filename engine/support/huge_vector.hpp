@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <new>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace haff::engine {
@@ -65,5 +67,29 @@ struct HugeAllocator {
 
 template <class T>
 using HugeVector = std::vector<T, HugeAllocator<T>>;
+
+// Room for numbers that are written before they are read: it is not filled with zeros, which takes
+// as long as a pass over it.
+template <class T>
+class HugeRoom {
+ public:
+  static_assert(std::is_trivially_copyable_v<T>);
+
+  explicit HugeRoom(std::size_t size) : data_(HugeAllocator<T>().allocate(size)), size_(size) {}
+  ~HugeRoom() { HugeAllocator<T>().deallocate(data_, size_); }
+  HugeRoom(const HugeRoom&) = delete;
+  HugeRoom& operator=(const HugeRoom&) = delete;
+
+  std::size_t size() const { return size_; }
+  T& operator[](std::size_t k) { return data_[k]; }
+  void swap(HugeRoom& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+  }
+
+ private:
+  T* data_;
+  std::size_t size_;
+};
 
 }  // namespace haff::engine

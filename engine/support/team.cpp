@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "engine/parallel/team.hpp"
+#include "engine/support/team.hpp"
 
 namespace haff::engine {
 namespace {
@@ -32,8 +32,9 @@ void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
 
 }  // namespace
 
-Team::Team(unsigned size) : size_(size) {
-  for (unsigned k = 1; k < size; ++k) threads_.emplace_back([this, k] { serve(k); });
+void Team::grow(unsigned size) {
+  const std::uint32_t jobs = jobs_;
+  for (; size_ < size; ++size_) threads_.emplace_back([this, k = size_, jobs] { serve(k, jobs); });
 }
 
 Team::~Team() {
@@ -44,6 +45,10 @@ Team::~Team() {
 }
 
 void Team::run(const std::function<void(unsigned)>& job) {
+  if (size_ == 1) {
+    job(0);
+    return;
+  }
   job_ = &job;
   busy_.store(size_ - 1, std::memory_order_relaxed);
   jobs_.fetch_add(1, std::memory_order_release);
@@ -57,6 +62,7 @@ void Team::run(const std::function<void(unsigned)>& job) {
 }
 
 void Team::wait_for_all() {
+  if (size_ == 1) return;
   const std::uint32_t meeting = meetings_.load(std::memory_order_acquire);
   if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == size_) {
     arrived_.store(0, std::memory_order_relaxed);
@@ -67,8 +73,8 @@ void Team::wait_for_all() {
   while (meetings_.load(std::memory_order_acquire) == meeting) wait_while(meetings_, meeting);
 }
 
-void Team::serve(unsigned number) {
-  for (std::uint32_t seen = 0;; ++seen) {
+void Team::serve(unsigned number, std::uint32_t seen) {
+  for (;; ++seen) {
     wait_while(jobs_, seen);
     if (stop_) return;
     (*job_)(number);

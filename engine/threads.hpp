@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// How many threads are worth while.
+#pragma once
+
+#include <cstdint>
+
+namespace haff::engine {
+
+// The largest number of threads with which a gas of this size was measured to be faster than with
+// fewer: every one of them has some 50 000 particles and a slab of twelve bricks or more, below
+// which windows often have to be repaired (decisions/several-cores.md). 1 for a small gas.
+unsigned useful_threads(std::uint32_t particles, double n, int d = 3);
+
+}  // namespace haff::engine
