@@ -24,6 +24,7 @@
 #include "campaign/commands/store/cancel.hpp"
 #include "campaign/commands/store/verify.hpp"
 #include "campaign/figures/figures.hpp"
+#include "campaign/job/thread_share.hpp"
 
 namespace haff::campaign {
 
@@ -44,7 +45,7 @@ struct BackupCommand {
 struct UpgradeCommand {};
 struct WorkerCommand {  // what `run` starts; not for people
   int report_descriptor = 0;
-  int threads = 1;
+  ThreadShare share;
   std::optional<double> until;  // on the monotonic clock [s]
   std::string where, order;
 };

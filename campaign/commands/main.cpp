@@ -131,7 +131,7 @@ struct CommandDispatcher {
     if (command.until) deadline = Deadline(Deadline::duration(*command.until));
     return work(line.store, command.report_descriptor,
                 {.deadline = deadline,
-                 .threads = command.threads,
+                 .share = command.share,
                  .where = command.where,
                  .order = command.order});
   }

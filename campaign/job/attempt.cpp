@@ -36,14 +36,18 @@ constexpr auto renew_every = 5s;      // the lease, and tau as `campaign status`
 // signal. [s]
 constexpr double patience = 3.0;
 
+std::string threads_text(unsigned threads) {
+  return threads == 1 ? "1 thread" : fmt::format("{} threads", threads);
+}
+
 }  // namespace
 
 Attempt::Attempt(schema::Store& store, const schema::Claim& claim, const Reporter& reporter,
-                 unsigned threads)
+                 std::function<unsigned()> threads)
     : store_(store),
       claim_(claim),
       reporter_(reporter),
-      threads_(threads),
+      threads_wanted_(std::move(threads)),
       diffusion_(claim.job),
       cpu_at_start_(cpu_seconds()) {}
 
@@ -72,15 +76,34 @@ void Attempt::begin(const engine::State& state) {
   });
   committed_ = samples_.size();
   views_ = {};
-  const engine::Model model = model_of(job());
-  gas_.emplace(model, state, engine::SearchBackend::simd, engine::Threads{.count = threads_});
-  if (threads_ > 1 && model.counts_collisions)
+  threads_ = threads_wanted_();
+  if (threads_ > 1 && model_of(job()).counts_collisions)
     log("runs on one thread: collision_statistics needs the order of all collisions");
-  diffusion_.begin(*gas_, state);
+  make_gas(state);
   if (gas_->collisions() > 0) log(fmt::format("goes on from tau = {:.6g}", tau()));
   speed_from_ = gas_->collisions();
   speed_since_ = renewed_ = Clock::now();
   report_progress();
+}
+
+void Attempt::make_gas(const engine::State& state) {
+  gas_.emplace(model_of(job()), state, engine::SearchBackend::simd,
+               engine::Threads{.count = threads_});
+  diffusion_.begin(*gas_, state);
+}
+
+// With another number of threads, the gas goes on from its state as if it had been stored.
+void Attempt::adapt_threads() {
+  const unsigned wanted = threads_wanted_();
+  if (wanted == threads_ || model_of(job()).counts_collisions) return;
+  log(fmt::format("goes on with {}, {} before", threads_text(wanted), threads_));
+  threads_ = wanted;
+  engine::State state = gas_->state();
+  diffusion_.store(state);
+  gas_.reset();
+  make_gas(state);
+  speed_from_ = gas_->collisions();
+  speed_since_ = Clock::now();
 }
 
 bool Attempt::advance_to(std::int64_t collisions) {
@@ -112,6 +135,7 @@ void Attempt::commit(double tau) {
   store_.commit(claim_.lease, commit);
   committed_ = samples_.size();
   views_ = {};
+  if (!is_asked_to_leave() && tau < claim_.tau_max) adapt_threads();
 }
 
 bool Attempt::is_asked_to_leave() const {

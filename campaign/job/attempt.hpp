@@ -8,6 +8,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,8 +26,11 @@ enum class Ending { finished, collapsed, left };
 
 class Attempt {
  public:
-  Attempt(schema::Store& store, const schema::Claim& claim, const Reporter& reporter,
-          unsigned threads = 1);
+  // `threads`: how many the job should have now. It is asked at the beginning and at every commit,
+  // since other jobs end meanwhile.
+  Attempt(
+      schema::Store& store, const schema::Claim& claim, const Reporter& reporter,
+      std::function<unsigned()> threads = [] { return 1U; });
 
   const schema::Job& job() const { return claim_.job; }
   const schema::Claim& claim() const { return claim_; }
@@ -62,6 +66,8 @@ class Attempt {
   using Clock = std::chrono::steady_clock;
 
   void log(const std::string& what) const;
+  void make_gas(const engine::State& state);
+  void adapt_threads();
   void report_progress();
   // Asked to stop: whether to collide on to the next synchronization first.
   bool may_go_on_to_synchronization() const;
@@ -76,7 +82,8 @@ class Attempt {
   schema::Store& store_;
   const schema::Claim& claim_;
   const Reporter& reporter_;
-  unsigned threads_;
+  std::function<unsigned()> threads_wanted_;
+  unsigned threads_ = 1;
   std::optional<engine::Simulation> gas_;
   std::vector<schema::Sample> samples_;
   std::size_t committed_ = 0;  // of samples_, or in the store from an earlier attempt

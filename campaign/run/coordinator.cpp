@@ -150,10 +150,11 @@ class Coordinator {
     for (std::size_t k = 0; k < workers_.size(); ++k)
       if (!workers_[k] && !has_finished_[k])
         workers_[k] = std::make_unique<WorkerProcess>(
-            options_.store, WorkerOptions{.deadline = deadline_of(options_, start_),
-                                          .threads = options_.threads,
-                                          .where = options_.where,
-                                          .order = options_.order});
+            options_.store,
+            WorkerOptions{.deadline = deadline_of(options_, start_),
+                          .share = {.threads = options_.threads, .processors = options_.workers},
+                          .where = options_.where,
+                          .order = options_.order});
   }
 
   void listen() {

@@ -17,7 +17,8 @@ namespace haff::campaign {
 struct RunOptions {
   std::filesystem::path store;
   int workers = 1;
-  int threads = 1;                    // of each worker
+  // Of each worker. 0: the workers' processors, one for each, are shared out among the jobs.
+  int threads = 0;
   std::optional<double> max_seconds;  // wall clock
   std::optional<double> cpu_budget;   // of all workers together [s]
   std::filesystem::path log_json;     // events go here as lines of JSON; empty: nowhere

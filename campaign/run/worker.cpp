@@ -23,6 +23,7 @@
 #include "campaign/job/cooling.hpp"
 #include "campaign/job/equilibration.hpp"
 #include "campaign/run/process.hpp"
+#include "campaign/run/threads_now.hpp"
 #include "campaign/run/work_left.hpp"
 #include "engine/simulation.hpp"
 #include "schema/store/store.hpp"
@@ -108,11 +109,11 @@ void fail(schema::Store& store, const schema::Claim& claim, const Failure& failu
                             "attempt_failed", claim.lease.job_id});
 }
 
-void work_on(schema::Store& store, const schema::Claim& claim, const Reporter& reporter,
-             int threads) {
+void work_on(schema::Selection& store, const schema::Claim& claim, const Reporter& reporter,
+             const ThreadShare& share) {
   reporter.send(
       LogReport{Level::debug, name_of(claim) + " begins", "job_begun", claim.lease.job_id});
-  Attempt attempt(store, claim, reporter, static_cast<unsigned>(threads));
+  Attempt attempt(store, claim, reporter, [&] { return threads_now(claim.job, share, store); });
   try {
     if (const auto failure = failure_of(attempt, reporter)) fail(store, claim, *failure, reporter);
   } catch (const schema::LeaseLost&) {
@@ -149,7 +150,7 @@ int work(const std::filesystem::path& path, int report_descriptor, const WorkerO
       const auto fit = what_fits(options.deadline);
       if (store.has_claimable(fit)) {
         if (const auto claim = store.claim(me, code_version(), fit))
-          work_on(store, *claim, reporter, options.threads);
+          work_on(store, *claim, reporter, options.share);
         continue;
       }
       reporter.send(IdleReport{});

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "campaign/job/thread_share.hpp"
 #include "schema/store/choice.hpp"
 
 namespace haff::campaign {
@@ -32,7 +33,7 @@ std::optional<double> least_seconds_needed(const schema::Selection& store);
 struct WorkerOptions {
   std::optional<Deadline> deadline =
       {};                              // no job is taken of which nothing could be stored by then
-  int threads = 1;                     // for a job
+  ThreadShare share = {};              // threads for a job
   std::string where = {}, order = {};  // which jobs, and in which order (schema/store/choice.hpp)
 };
 

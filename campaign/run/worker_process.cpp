@@ -46,7 +46,9 @@ WorkerProcess::WorkerProcess(const std::filesystem::path& store, const WorkerOpt
                                  "worker",
                                  std::to_string(write_end),
                                  "--threads",
-                                 std::to_string(options.threads)};
+                                 std::to_string(options.share.threads),
+                                 "--processors",
+                                 std::to_string(options.share.processors)};
   if (options.deadline) {
     words.emplace_back("--until");
     words.push_back(fmt::format("{}", options.deadline->time_since_epoch().count()));

@@ -54,13 +54,14 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
           ->capture_default_str();
   command
       ->add_option("--threads", options.threads,
-                   "Threads of each worker; every number gives the same rows. Two make a gas of "
-                   "500000 particles or more 1.5 times as fast; seeds side by side gain more")
+                   "Threads of each worker; every number gives the same rows. By default one, and "
+                   "more for a job of 100000 particles or more whenever fewer jobs are left than "
+                   "workers")
       ->check(CLI::Range(1, most_threads))
-      ->type_name("T")
-      ->capture_default_str();
+      ->type_name("T");
   command->callback([&options, workers] {
-    if (workers->count() == 0) options.workers = std::max(1, processors() / options.threads);
+    if (workers->count() == 0 && options.threads > 0)
+      options.workers = std::max(1, processors() / options.threads);
   });
   add_duration(
       command, "--max-time", options.max_seconds,
@@ -141,7 +142,8 @@ CLI::App* add_worker(CLI::App& app, WorkerCommand& options) {
   auto* command = app.add_subcommand("worker", "")->group("");  // not shown
   command->add_option("DESCRIPTOR", options.report_descriptor)->required();
   command->add_option("--until", options.until);
-  command->add_option("--threads", options.threads)->check(CLI::Range(1, most_threads));
+  command->add_option("--threads", options.share.threads)->check(CLI::Range(0, most_threads));
+  command->add_option("--processors", options.share.processors)->check(CLI::PositiveNumber);
   command->add_option("--where", options.where);
   command->add_option("--order", options.order);
   return command;

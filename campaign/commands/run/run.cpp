@@ -162,7 +162,8 @@ void log_start(const RunOptions& options, EventLog& log) {
   const schema::Owner me = this_process();
   log.add("run_started", {{"store", std::filesystem::absolute(options.store).string()},
                           {"workers", options.workers},
-                          {"threads", options.threads},
+                          {"threads", options.threads > 0 ? nlohmann::ordered_json(options.threads)
+                                                          : nlohmann::ordered_json(nullptr)},
                           {"host", me.host},
                           {"pid", me.pid},
                           {"code_version", code_version()}});
