@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
+
+#include "campaign/planning/run_time.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -68,6 +71,7 @@ class Loader {
     share.cooling_jobs += piece.job->job.kind == Kind::cooling ? 1 : 0;
     share.cpu_seconds = load;
     share.longest_cpu_seconds = std::max(share.longest_cpu_seconds, piece.alone());
+    note_long(piece, share.long_jobs);
   }
 
   std::vector<Share> take() {
@@ -76,6 +80,19 @@ class Loader {
   }
 
  private:
+  // What threads bring depends on the box and the number of particles in it.
+  static void note_long(const Piece& piece, std::vector<LongJob>& long_jobs) {
+    const schema::Job& job = piece.job->job;
+    const auto same = std::ranges::find_if(long_jobs, [&](const LongJob& other) {
+      return std::tie(other.job.particles, other.job.n, other.job.d) ==
+             std::tie(job.particles, job.n, job.d);
+    });
+    if (same == long_jobs.end())
+      long_jobs.push_back({job, piece.alone()});
+    else
+      same->cpu_seconds = std::max(same->cpu_seconds, piece.alone());
+  }
+
   double load_with(std::size_t k, const Piece& piece) const {
     const bool has_start =
         piece.equilibration == nullptr || starts_[k].contains(piece.equilibration->job_id);
@@ -89,7 +106,10 @@ class Loader {
 }  // namespace
 
 double Share::makespan(int workers) const {
-  return std::max(longest_cpu_seconds, cpu_seconds / workers);
+  double time = cpu_seconds / workers;
+  for (const LongJob& each : long_jobs)
+    time = std::max(time, shortest_time(each.job, each.cpu_seconds, workers));
+  return time;
 }
 
 double remaining_cpu_seconds(const JobRow& row) {

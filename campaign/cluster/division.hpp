@@ -16,6 +16,12 @@
 
 namespace haff::campaign {
 
+// The longest of the jobs that gain as much from threads as each other.
+struct LongJob {
+  schema::Job job;
+  double cpu_seconds = 0;  // with the equilibration that it waits for [s]
+};
+
 // What one shard gets.
 struct Share {
   std::vector<std::int64_t> jobs;  // job_id, equilibrations before the jobs that start from them
@@ -23,9 +29,10 @@ struct Share {
   double cpu_seconds = 0;  // expected for all that is left of them [s]
   double longest_cpu_seconds =
       0;  // of one cooling job with the equilibration that it waits for [s]
+  std::vector<LongJob> long_jobs;  // the longest of each gas
 
   // The time that so many workers need at least: the whole load divided evenly, or the longest
-  // job, whichever is longer. [s]
+  // job on as many threads as help it, whichever is longer. [s]
   double makespan(int workers) const;
 };
 

@@ -14,6 +14,16 @@ namespace {
 constexpr std::uint32_t least_particles = 50'000;
 constexpr std::uint32_t least_cells = 24;
 
+// What several threads take, in units of the time of an event on one: an event in a slab and in a
+// zone, the busiest thread's share in that of all, and for each thread that one of them adds up the
+// sums of all.
+constexpr double slab_event = 1.2;
+constexpr double zone_event = 2;
+constexpr double imbalance = 1.03;
+constexpr double merging = 0.015;
+// The events in a zone are as many as those in so many layers of cells.
+constexpr double zone_layers = 4.7;
+
 // Cells on either side of a border that belong to its zone, if the slabs have room for them. What
 // has to wait at a border spreads by less than a cell within a window.
 constexpr std::uint32_t widest_zone = 14;
@@ -26,6 +36,14 @@ unsigned useful_threads(std::uint32_t particles, double n, int d) {
   const std::uint32_t slabs =
       std::min(particles / least_particles, Bricks::cells_along(box, particles) / least_cells);
   return std::clamp(slabs, 1u, 255u);
+}
+
+double expected_speed_up(unsigned threads, std::uint32_t particles, double n, int d) {
+  if (threads <= 1) return 1;
+  const double cells = Bricks::cells_along(Box(box_side(n, particles, d), d), particles);
+  const double in_zones = std::min(1.0, zone_layers * threads / cells);
+  const double event = slab_event + (zone_event - slab_event) * in_zones;
+  return 1 / (event * imbalance / threads + merging * (threads - 1));
 }
 
 unsigned Slabs::most(const Bricks& bricks, unsigned wanted) {

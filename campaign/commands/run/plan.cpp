@@ -50,6 +50,19 @@ std::string counts_text(const PlanOutcome& outcome) {
   return text;
 }
 
+// Of a run on this machine alone. Says nothing where it would repeat the CPU time.
+std::string run_time_text(const RunTime& time) {
+  const int workers = processors();
+  if (workers == 1) return "";
+  return fmt::format("With {} workers, one for each processor here, {} in all{}.\n", workers,
+                     duration_text(time.seconds),
+                     time.most_threads == 1
+                         ? ""
+                         : fmt::format("; while fewer jobs than workers are left, a large one gets "
+                                       "up to {} threads",
+                                       time.most_threads));
+}
+
 void print_jobs(const PlanOutcome& outcome) {
   TextTable table({{"kind", Align::left},
                    {"d"},
@@ -73,6 +86,7 @@ void print_jobs(const PlanOutcome& outcome) {
   say("Expected in all: {} of CPU time ({}), {} of memory for each worker, {} on disk.\n",
       duration_text(outcome.cpu_seconds), outcome.cpu_source, bytes_text(outcome.memory_bytes),
       bytes_text(outcome.disk_bytes));
+  say("{}", run_time_text(outcome.run_time));
   if (!outcome.memory_warning.empty()) say("Warning: {}.\n", outcome.memory_warning);
 }
 

@@ -121,6 +121,7 @@ PlanOutcome plan_outcome(const std::vector<Planned>& jobs, const std::vector<Out
   found.disk_bytes = empty_store_bytes;
   add_groups(jobs, outcomes, forecast, found);
   found.cpu_source = forecast.source();
+  found.run_time = expected_run_time(jobs, processors());
   found.memory_warning = memory_warning(found.memory_bytes);
   add_boxes(jobs, found);
   found.notes = near_twins(jobs, known);
@@ -145,6 +146,9 @@ ordered_json plan_json(const PlanOutcome& outcome) {
                       {"unchanged", outcome.unchanged},
                       {"expected_cpu_seconds", outcome.cpu_seconds},
                       {"expected_from", outcome.cpu_source},
+                      {"expected_seconds", outcome.run_time.seconds},
+                      {"workers", processors()},
+                      {"most_threads_of_worker", outcome.run_time.most_threads},
                       {"memory_bytes_of_worker", outcome.memory_bytes},
                       {"disk_bytes", outcome.disk_bytes},
                       {"groups", ordered_json::array()},

@@ -11,6 +11,7 @@
 
 #include "campaign/accuracy/targets/targets.hpp"
 #include "campaign/planning/forecast.hpp"
+#include "campaign/planning/run_time.hpp"
 #include "campaign/results/box.hpp"
 #include "schema/store/revision.hpp"
 
@@ -35,6 +36,7 @@ struct PlanOutcome {
   int jobs = 0, added = 0, extended = 0, unchanged = 0;
   std::vector<PlanGroup> groups;  // equilibrations first, then by d, e, n, N, tau_max
   double cpu_seconds = 0;         // expected in all
+  RunTime run_time;               // with a worker for each processor of this machine
   std::string cpu_source;         // what the expectation rests on, in words
   double memory_bytes = 0;        // of each worker
   double disk_bytes = 0;
