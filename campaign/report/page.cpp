@@ -159,7 +159,8 @@ std::string page_data(const schema::Reader& store) {
 void require_page() {
   if (assets().empty())
     throw PageMissing("this program was built without the libraries of the page: " +
-                      std::string(why_no_assets()));
+                      std::string(why_no_assets()) +
+                      ". Without them, `campaign figures` makes a page of pictures");
 }
 
 std::string report_page(const schema::Reader& store, bool is_served) {

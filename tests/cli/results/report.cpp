@@ -32,6 +32,7 @@ bool has_page() {
   if (outcome.err.find("built without") == std::string::npos) return true;
   CHECK(outcome.exit_code == 1);
   CHECK(outcome.err.find("npm") != std::string::npos);
+  CHECK(outcome.err.find("campaign figures") != std::string::npos);
   MESSAGE(outcome.err);
   return false;
 }
