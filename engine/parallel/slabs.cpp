@@ -15,12 +15,11 @@ constexpr std::uint32_t least_particles = 50'000;
 constexpr std::uint32_t least_cells = 24;
 
 // What several threads take, in units of the time of an event on one: an event in a slab and in a
-// zone, the busiest thread's share in that of all, and for each thread that one of them adds up the
-// sums of all.
+// zone, and the merging of sums; and the busiest thread's share in units of an even one.
 constexpr double slab_event = 1.2;
 constexpr double zone_event = 2;
 constexpr double imbalance = 1.03;
-constexpr double merging = 0.015;
+constexpr double merging = 0.02;
 // The events in a zone are as many as those in so many layers of cells.
 constexpr double zone_layers = 4.7;
 
@@ -43,7 +42,7 @@ double expected_speed_up(unsigned threads, std::uint32_t particles, double n, in
   const double cells = Bricks::cells_along(Box(box_side(n, particles, d), d), particles);
   const double in_zones = std::min(1.0, zone_layers * threads / cells);
   const double event = slab_event + (zone_event - slab_event) * in_zones;
-  return 1 / (event * imbalance / threads + merging * (threads - 1));
+  return 1 / (event * imbalance / threads + merging);
 }
 
 unsigned Slabs::most(const Bricks& bricks, unsigned wanted) {

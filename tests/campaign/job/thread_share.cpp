@@ -29,9 +29,20 @@ schema::Job job(std::uint32_t particles) {
   return job;
 }
 
-// The samples of a cooling gas whose number of threads changes at each of its checkpoints.
-std::vector<schema::Sample> samples_with(const std::vector<unsigned>& threads) {
-  const schema::Job cooling = job(16'000);  // room for four slabs
+struct Rows {
+  std::vector<schema::Sample> samples;
+  std::vector<schema::Profile> displacements;
+  bool operator==(const Rows&) const = default;
+};
+
+// Of a cooling gas whose number of threads changes at each of its checkpoints.
+Rows rows_with(const std::vector<unsigned>& threads) {
+  // Disks that have room for four slabs: on a busy machine, threads that wait for each other do so
+  // for long.
+  schema::Job cooling = job(500);
+  cooling.d = 2;
+  cooling.equilibrate = 10;
+  cooling.observables = {"laguerre", "msd@5", "temperature"};
   schema::Store store = schema::Store::in_memory();
   store.add({{.job = schema::equilibration_of(cooling), .tau_max = cooling.equilibrate},
              {.job = cooling, .tau_max = 40}});
@@ -45,8 +56,9 @@ std::vector<schema::Sample> samples_with(const std::vector<unsigned>& threads) {
     REQUIRE(ending == Ending::finished);
   }
   close(nowhere);
-  if (threads.size() > 1) CHECK(asked > 6);  // at two beginnings and every checkpoint
-  return store.samples(*store.find(cooling));
+  if (threads.size() > 1) CHECK(asked == 5);  // at two beginnings, and at tau = 10, 20 and 30
+  const std::int64_t job_id = *store.find(cooling);
+  return {store.samples(job_id), store.profiles(job_id, "msd")};
 }
 
 }  // namespace
@@ -69,8 +81,10 @@ TEST_CASE("thread share: who asks for a number gets it") {
 }
 
 TEST_CASE("thread share: the rows are the same if the number changes at every checkpoint") {
-  const auto one = samples_with({1});
-  REQUIRE(one.size() == 41);
-  CHECK(samples_with({2, 4, 1, 3}) == one);
-  CHECK(samples_with({4, 1}) == one);
+  const Rows one = rows_with({1});
+  REQUIRE(one.samples.size() == 41);
+  REQUIRE(one.displacements.size() == 1);
+  CHECK(one.displacements[0].x.size() == 35);
+  CHECK(rows_with({2, 4, 1, 3}) == one);
+  CHECK(rows_with({4, 1}) == one);
 }

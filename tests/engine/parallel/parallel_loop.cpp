@@ -9,64 +9,15 @@
 #include <vector>
 
 #include "engine/initial.hpp"
+#include "engine/parallel/scenes.hpp"
 #include "engine/simulation.hpp"
 #include "engine/support/random.hpp"
 
 using namespace haff::engine;
-
-namespace {
-
-struct Scene {
-  std::string name;
-  Model model;
-  int d = 3;
-  double n = 0.4;
-  std::uint32_t particles = 16'000;  // four slabs of four layers
-};
-
-const Parameters mixed{{"fraction", 0.5}, {"diameter_ratio", 0.8}, {"mass_ratio", 0.5}};
-const Parameters rough{{"beta", 0.5}, {"q", 0.4}};
-
-std::vector<Scene> scenes() {
-  return {
-      {"elastic", {.restitution = 1}},
-      {"inelastic", {.restitution = 0.8}},
-      {"dense", {.restitution = 0.9}, 3, 0.9, 40'000},
-      {"dilute", {.restitution = 0.7}, 3, 0.05},
-      {"threshold", {.restitution = 0.6, .law = {"threshold", {{"speed", 0.1}}}}},
-      {"tc", {.restitution = 0.6, .law = {"tc", {{"t_c", 1e-3}}}}},
-      {"viscoelastic", {.law = {"viscoelastic", {{"A", 0.1}}}}},
-      {"plastic", {.law = {"plastic", {{"speed", 0.1}}}}},
-      {"shuffle", {.restitution = 0.8, .effects = {{"shuffle", {{"every", 1}}}}, .seed = 3}},
-      {"thermostat", {.restitution = 0.8, .effects = {{"thermostat", {{"rate", 0.1}}}}, .seed = 3}},
-      {"rough", {.restitution = 0.8, .effects = {{"roughness", rough}}}},
-      {"mixture", {.restitution = 0.8, .effects = {{"mixture", mixed}}}},
-      {"rough mixture",
-       {.restitution = 0.8, .effects = {{"roughness", rough}, {"mixture", mixed}}}},
-      {"disks", {.restitution = 0.8}, 2, 0.4, 4000},
-      {"rough disks", {.restitution = 0.8, .effects = {{"roughness", rough}}}, 2, 0.4, 4000},
-      {"mixed disks", {.restitution = 0.8, .effects = {{"mixture", mixed}}}, 2, 0.4, 4000},
-  };
-}
-
-// Everything that can be seen of a gas at any time.
-void check_same(const Simulation& one, const Simulation& several) {
-  REQUIRE(several.collisions() == one.collisions());
-  CHECK(several.time() == one.time());
-  CHECK(several.ids() == one.ids());
-  CHECK(several.velocities() == one.velocities());
-  CHECK(several.positions() == one.positions());
-  CHECK(several.rotational_energy() == one.rotational_energy());
-  CHECK(several.invariants() == one.invariants());
-  CHECK(several.events().collisions == one.events().collisions);
-  CHECK(several.events().crossings == one.events().crossings);
-  CHECK(several.events().stale == one.events().stale);
-}
-
-}  // namespace
+using namespace haff::tests;
 
 // What is tested here is independent of how threads are scheduled, so one thread may work off all
-// slabs; the cases with real threads are further below.
+// slabs; real_threads.cpp has real threads.
 TEST_CASE("slabs: every effect, spheres and disks, in two to four slabs") {
   for (const Scene& scene : scenes()) {
     CAPTURE(scene.name);
@@ -98,21 +49,6 @@ TEST_CASE("slabs: every effect, spheres and disks, in two to four slabs") {
     }
     REQUIRE(one.synchronized());
     for (const auto& several : divided) CHECK(several->state() == one.state());
-  }
-}
-
-TEST_CASE("threads: two, three and four") {
-  for (const Scene& scene : scenes()) {
-    if (scene.name != "inelastic" && scene.name != "rough" && scene.name != "disks") continue;
-    CAPTURE(scene.name);
-    const State start = initial_state(scene.n, scene.particles, 1, scene.d, scene.model.effects);
-    Simulation one(scene.model, start);
-    one.run_to(collisions_at(2.5, scene.particles));
-    for (const unsigned count : {2u, 3u, 4u}) {
-      Simulation several(scene.model, start, SearchBackend::simd, {.count = count});
-      several.run_to(collisions_at(2.5, scene.particles));
-      check_same(one, several);
-    }
   }
 }
 

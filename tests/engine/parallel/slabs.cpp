@@ -63,7 +63,8 @@ TEST_CASE("slabs: useful threads") {
   CHECK(useful_threads(64, 0.4) == 1);
 }
 
-TEST_CASE("slabs: more threads are expected to be faster, as far as they are useful, never by more") {
+TEST_CASE(
+    "slabs: more threads are expected to be faster, as far as they are useful, never by more") {
   CHECK(expected_speed_up(1, 500'000, 0.4) == 1);
   for (const std::uint32_t particles : {100'000u, 1'000'000u, 10'000'000u}) {
     double before = 1;
