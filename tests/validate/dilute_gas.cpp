@@ -43,10 +43,11 @@ TEST_CASE("dilute_gas: a2 at n = 0.005 is that of the direct simulation, not -A/
                   << direct2.value << ", -A/B " << analysis::boltzmann_a2_plateau(e));
   MESSAGE("a3 = " << third.mean << " +- " << third.standard_error << ", direct simulation "
                   << direct3.value);
-  // Four errors of twelve seeds, a false alarm once in 500 (Student's t of 11). The error itself is
-  // near 0.0004, a quarter of what tells the two theories apart.
-  CHECK(second.standard_error < 7e-4);
+  // The error of 96 seeds is near 0.00013, a thirteenth of what tells the two theories apart: four
+  // of them are a false alarm once in 8000, and -A/B would be one in ten billion.
+  CHECK(second.standard_error < 2e-4);
   CHECK(std::abs(second.mean - direct2.value) <
         4 * std::hypot(second.standard_error, direct2.error));
+  CHECK(std::abs(second.mean - analysis::boltzmann_a2_plateau(e)) > 6 * second.standard_error);
   CHECK(std::abs(third.mean - direct3.value) < 4 * std::hypot(third.standard_error, direct3.error));
 }
