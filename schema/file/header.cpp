@@ -5,10 +5,12 @@
 #include <sqlite3.h>
 
 #include <array>
+#include <string_view>
 
 namespace haff::schema {
 
 std::optional<Header> header_of(SQLite::Database& sqlite) {
+  constexpr std::string_view magic{"SQLite format 3\0", 16};
   constexpr int place = 19;  // of the version that a reader must know: 1 without a log, 2 with one
   constexpr char with_log = 2;
   sqlite3_file* file = nullptr;
@@ -21,6 +23,7 @@ std::optional<Header> header_of(SQLite::Database& sqlite) {
   if (file->pMethods->xFileSize(file, &bytes) != SQLITE_OK) return std::nullopt;
   const int result = file->pMethods->xRead(file, first.data(), static_cast<int>(first.size()), 0);
   if (result != SQLITE_OK && result != SQLITE_IOERR_SHORT_READ) return std::nullopt;
+  if (std::string_view(first.data(), magic.size()) != magic) return std::nullopt;
   return Header{.expects_log = first[place] == with_log, .bytes = bytes};
 }
 

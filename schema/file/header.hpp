@@ -16,8 +16,10 @@ struct Header {
   std::int64_t bytes = 0;    // of the file
 };
 
-// Nothing if the file cannot be read just now. It is read through SQLite's own descriptor: to close
-// another one would drop the locks that this process holds on the file.
+// Nothing if the file cannot be read just now, or does not begin as a database: power loss may
+// leave that of a header that was being copied from the log, which has the whole of it. It is read
+// through SQLite's own descriptor: to close another one would drop the locks that this process
+// holds on the file.
 std::optional<Header> header_of(SQLite::Database& sqlite);
 
 }  // namespace haff::schema

@@ -440,6 +440,22 @@ TEST_CASE("a store that vanishes from under its writer is noticed, and saved fro
   CHECK(Reader(folder / "saved.db").jobs().size() == 2);
 }
 
+TEST_CASE("a header that power loss has left half copied is read from the log, and made whole") {
+  const TemporaryFolder folder;
+  Store running = Store::create(folder / "a.db");
+  running.open_log();
+  running.add(plan({cooling(0.8)}));
+  // Pages that are added change the header, so that the log has it.
+  for (std::uint64_t seed = 2; seed < 60; ++seed) running.add(plan({cooling(0.8, seed)}));
+  std::filesystem::copy_file(folder / "a.db", folder / "b.db");
+  std::filesystem::copy_file(folder / "a.db-wal", folder / "b.db-wal");
+  std::fstream(folder / "b.db", std::ios::binary | std::ios::in | std::ios::out)
+      << std::string(512, 'x');
+  CHECK(Reader(folder / "b.db").jobs().size() == running.jobs().size());
+  const Store store = Store::open(folder / "b.db");
+  CHECK(store.faults().empty());
+}
+
 TEST_CASE("a log beside a store that never had one is another file's") {
   const TemporaryFolder folder;
   Store::create(folder / "a.db").add(plan({cooling()}));
