@@ -98,7 +98,7 @@ class ParallelLoop {
   std::size_t memory() const {
     std::size_t bytes = division_.frozen.size() + division_.marks.size() * sizeof(float);
     for (const auto& region : regions_) bytes += region->memory();
-    return bytes + (merged_.capacity() + other_.capacity()) * sizeof(CollisionRecord);
+    return bytes;
   }
 
  private:
@@ -272,19 +272,31 @@ class ParallelLoop {
     count_events();
     for (const auto& region : regions_)
       gas_.clock.invariants.closest2 = std::min(gas_.clock.invariants.closest2, region->closest2);
-    const std::vector<CollisionRecord>* all = &regions_[0]->ordered;
-    for (unsigned k = 1; k + 1 < division_.regions; ++k) {
-      merge(*all, regions_[k]->ordered, other_);
-      merged_.swap(other_);
-      all = &merged_;
-    }
+    const unsigned half = merge_into_two();
     Tally tally = gas_.clock.tally;
-    visit_in_order(*all, regions_.back()->ordered, [&tally](const CollisionRecord& collision) {
-      tally.virial += collision.virial;
-      tally.dissipated += collision.dissipated[0];
-      tally.dissipated += collision.dissipated[1];
-    });
+    visit_in_order(regions_[0]->ordered, regions_[half]->ordered,
+                   [&tally](const CollisionRecord& collision) {
+                     tally.virial += collision.virial;
+                     tally.dissipated += collision.dissipated[0];
+                     tally.dissipated += collision.dissipated[1];
+                   });
     gas_.clock.tally = tally;
+  }
+
+  // Merges the lists of collisions, two by two and all pairs at once, until two are left: that of
+  // the first region, and that of the region which is returned.
+  unsigned merge_into_two() {
+    unsigned step = 1;
+    for (; 2 * step < division_.regions; step *= 2)
+      team_.run([&](unsigned thread) {
+        for (unsigned pair = thread; 2 * step * pair + step < division_.regions;
+             pair += team_.size()) {
+          AnyRegion& first = *regions_[2 * step * pair];
+          merge(first.ordered, regions_[2 * step * pair + step]->ordered, first.merged);
+          first.ordered.swap(first.merged);
+        }
+      });
+    return step;
   }
 
   Gas& gas_;
@@ -300,7 +312,6 @@ class ParallelLoop {
   double rate_ = 0;  // collisions per unit of time
   Windows windows_;
   std::vector<std::vector<std::uint32_t>> soon_;  // events in each layer, as each thread counts
-  std::vector<CollisionRecord> merged_, other_;
 };
 
 }  // namespace haff::engine::HWY_NAMESPACE

@@ -70,7 +70,8 @@ struct alignas(64) Region {
   }
 
   std::size_t memory() const {
-    std::size_t bytes = queue.memory() + ordered.capacity() * sizeof(CollisionRecord);
+    std::size_t bytes =
+        queue.memory() + (ordered.capacity() + merged.capacity()) * sizeof(CollisionRecord);
     for (const Done& phase : done)
       bytes += phase.log.memory() + phase.collisions.capacity() * sizeof(CollisionRecord);
     for (const auto& list : deferred) bytes += list.capacity() * sizeof(WindowQueue::Entry);
@@ -85,6 +86,7 @@ struct alignas(64) Region {
   std::vector<std::vector<std::uint32_t>> outbox;         // events after the window, by slab
   std::array<Done, phases> done;
   std::vector<CollisionRecord> ordered;  // collisions of both phases, in the order of time
+  std::vector<CollisionRecord> merged;   // with those of another region
   double closest2 = 1;
 };
 
