@@ -39,6 +39,11 @@ TEST_CASE("json: plan says what it did, and again that nothing is new") {
   CHECK(first["groups"].size() == 3);
   CHECK(first["groups"][0]["kind"] == "equilibration");
   CHECK(first["expected_cpu_seconds"] > 0);
+  // Small gases: no more threads than workers.
+  CHECK(first["expected_seconds"] > 0);
+  CHECK(first["expected_seconds"].get<double>() <=
+        first["expected_cpu_seconds"].get<double>() * (1 + 1e-9));
+  CHECK(first["most_threads_of_worker"] == 1);
   CHECK(first["boxes"].size() == 2);
   CHECK(first["warnings"].size() == 2);
   const json second = parsed(campaign(folder, {"--json", "plan", "grid.json"}));
