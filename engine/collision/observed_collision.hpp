@@ -58,6 +58,13 @@ class ObservedCollision : public AnyCollision<PairGeometry> {
     if (last == state.memory.end() || counts == state.memory.end()) return;
     if (last->second.size() != last_.size() || counts->second.size() != bins)
       throw std::invalid_argument("the state remembers collisions of other particles");
+    const auto happened = static_cast<double>(state.collisions);
+    const auto is_possible = [&](double number) { return number >= none && number <= happened; };
+    // Each collision is in a bin of every kind, and in two of free times.
+    const auto is_count = [&](double number) { return number >= 0 && number <= 2 * happened; };
+    if (!std::ranges::all_of(last->second, is_possible) ||
+        !std::ranges::all_of(counts->second, is_count))
+      throw std::invalid_argument("the state remembers collisions that have not happened");
     last_ = last->second;
     const double* from = counts->second.data();
     for_each_bin(counts_, [&](std::int64_t& count) { count = static_cast<std::int64_t>(*from++); });

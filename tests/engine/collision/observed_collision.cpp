@@ -129,6 +129,18 @@ TEST_CASE("observed_collision: refuses what another gas remembers") {
   state.memory["last_collision"].assign(500, -1);
   state.memory["collision_counts"] = {1};
   CHECK_THROWS_AS(observed(scene, state), std::invalid_argument);
+  // Of a state without collisions.
+  state.memory["collision_counts"] = std::vector<double>(212);
+  CHECK_NOTHROW(observed(scene, state));
+  for (const double impossible : {-2.0, 1.0, 1e300}) {
+    state.memory["last_collision"][3] = impossible;
+    CHECK_THROWS_AS(observed(scene, state), std::invalid_argument);
+  }
+  state.memory["last_collision"][3] = -1;
+  for (const double impossible : {-1.0, 1.0, 1e300}) {
+    state.memory["collision_counts"][7] = impossible;
+    CHECK_THROWS_AS(observed(scene, state), std::invalid_argument);
+  }
 }
 
 TEST_CASE("observed_collision: in an elastic gas of any density, molecular chaos is exact") {
