@@ -79,6 +79,12 @@ TEST_CASE("thread share: processors are shared out among large jobs, and a few f
   CHECK(threads_for(counted, share, 1) == 1);
 }
 
+TEST_CASE("thread share: a job that counts collisions has no use for several") {
+  schema::Job counting = job(4'000'000);
+  counting.observables = {"collision_statistics"};
+  CHECK(threads_for(counting, {.processors = 8}, 1) == 1);
+}
+
 TEST_CASE("thread share: who asks for a number gets it") {
   CHECK(threads_for(job(1000), {.threads = 3, .processors = 8}, 100) == 3);
 }
