@@ -20,8 +20,8 @@ constexpr double rounding = 1e-9;
 // hard particles. [sigma]
 constexpr double overlap = 1e-6;
 
-double reach_in(double box) {
-  return std::min(pair_reach, box / 2);
+double reach_in(double box, double reach = pair_reach) {
+  return std::min(reach, box / 2);
 }
 
 // W of the header, of x in 0 ... 1.
@@ -34,11 +34,11 @@ double contact_weight(double x) {
 // Pairs in bins and at contact, each in units of what particles anywhere would have.
 class Counts {
  public:
-  Counts(double box, int d, double contact, double pairs)
+  Counts(double box, int d, double contact, double pairs, double reach)
       : d_(d),
         contact_(contact),
         density_(pairs * unit_sphere_surface(d) / std::pow(box, d)),
-        bins_(static_cast<std::size_t>((reach_in(box) - contact) / pair_bin + rounding)) {}
+        bins_(static_cast<std::size_t>((reach - contact) / pair_bin + rounding)) {}
 
   void add(double distance2) {
     const double r = std::sqrt(distance2);
@@ -79,12 +79,13 @@ void must_fit(double box) {
 }  // namespace
 
 PairDistribution pair_distribution(std::span<const Vector> position, double box, int d,
-                                   double contact) {
+                                   double contact, double reach) {
   must_fit(box);
   if (position.size() < 2) throw std::invalid_argument("a pair distribution needs two particles");
   const auto particles = static_cast<double>(position.size());
-  Counts counts(box, d, contact, particles * (particles - 1) / 2);
-  Pairs(position, box, d, reach_in(box)).for_each([&](std::size_t, std::size_t, double distance2) {
+  const double within = reach_in(box, reach);
+  Counts counts(box, d, contact, particles * (particles - 1) / 2, within);
+  Pairs(position, box, d, within).for_each([&](std::size_t, std::size_t, double distance2) {
     counts.add(distance2);
   });
   return counts.result();
@@ -98,7 +99,7 @@ PairDistribution pair_distribution(std::span<const Vector> one, std::span<const 
   std::vector<Vector> all(one.begin(), one.end());
   all.insert(all.end(), other.begin(), other.end());
   Counts counts(box, d, contact,
-                static_cast<double>(one.size()) * static_cast<double>(other.size()));
+                static_cast<double>(one.size()) * static_cast<double>(other.size()), reach_in(box));
   Pairs(all, box, d, reach_in(box)).for_each([&](std::size_t i, std::size_t j, double distance2) {
     if ((i < one.size()) != (j < one.size())) counts.add(distance2);
   });

@@ -37,11 +37,12 @@ struct PairDistribution {
   std::vector<double> g;  // chi, then the mean over each bin's shell
 };
 
-// Of particles at positions in [0, L). r depends on box, d and contact alone. The standard error of
-// one state is g/sqrt(pairs in the bin), of chi about sqrt(16 chi / (w n Omega_d N/2)). Throws
-// std::invalid_argument for fewer than two particles or a box narrower than 4 sigma.
+// Of particles at positions in [0, L). r depends on box, d, contact and reach alone; chi needs a
+// reach of contact + contact_range. The standard error of one state is g/sqrt(pairs in the bin), of
+// chi about sqrt(16 chi / (w n Omega_d N/2)). Throws std::invalid_argument for fewer than two
+// particles or a box narrower than 4 sigma.
 PairDistribution pair_distribution(std::span<const Vector> position, double box, int d = 3,
-                                   double contact = 1);
+                                   double contact = 1, double reach = pair_reach);
 
 // Of particles of two species with each other. Throws likewise, also if one has no particle.
 PairDistribution pair_distribution(std::span<const Vector> one, std::span<const Vector> other,

@@ -96,6 +96,18 @@ TEST_CASE("pair_distribution: a small box has no cells, and the same pairs") {
   CHECK(summed == Approx(pairs));
 }
 
+TEST_CASE("pair_distribution: a shorter reach leaves out bins, and knows the same of the others") {
+  Random random(8);
+  const auto position = anywhere(2000, 15, random);
+  const auto all = pair_distribution(position, 15);
+  const auto near = pair_distribution(position, 15, 3, 1, 1 + contact_range);
+  REQUIRE(near.r.size() == 9);
+  for (std::size_t i = 0; i < near.r.size(); ++i) {
+    CHECK(near.r[i] == all.r[i]);
+    CHECK(near.g[i] == Approx(all.g[i]).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("pair_distribution: refuses what it cannot tell") {
   CHECK_THROWS_AS(pair_distribution(std::vector<Vector>(5), 3.9), std::invalid_argument);
   CHECK_THROWS_AS(pair_distribution(std::vector<Vector>(1), 10), std::invalid_argument);
