@@ -11,7 +11,7 @@ namespace haff::engine {
 
 struct CollisionCounts {
   static constexpr int bins_of_free_time = 100;
-  static constexpr int bins_of_impact = 50;
+  static constexpr int bins_of_impact = 20;
   static constexpr int bins_of_normal_speed = 60;
   // Bins in a unit of a free time, and of a normal speed.
   static constexpr int free_time_resolution = 10;

@@ -81,7 +81,7 @@ TEST_CASE("observables: collisions are counted on one thread, and the run says s
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err.find("runs on one thread: collision_statistics") != std::string::npos);
   // At tau = 10 and 20, and none at 0.
-  CHECK(number(folder, "SELECT count(*) FROM profiles WHERE name = 'impacts'") == 100);
+  CHECK(number(folder, "SELECT count(*) FROM profiles WHERE name = 'impacts'") == 40);
   CHECK(campaign(folder, {"verify", "--recompute", "all"}).exit_code == 0);
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("observables: collision statistics come home from shards, and are aver
   CHECK(rows(folder) == rows(alone));
   CHECK(number(folder,
                "SELECT count(*) FROM mean_profiles WHERE name = 'impacts' AND tau = 20 AND "
-               "realizations = 3 AND value_se > 0") == 50);
+               "realizations = 3 AND value_se > 0") == 20);
   CHECK(number(folder, "SELECT avg(value) FROM mean_profiles WHERE name = 'impacts'") ==
         doctest::Approx(1).epsilon(1e-12));
   for (const char* name : {"free_times", "impacts", "normal_speeds"}) {
