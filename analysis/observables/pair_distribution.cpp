@@ -20,6 +20,10 @@ constexpr double rounding = 1e-9;
 // hard particles. [sigma]
 constexpr double overlap = 1e-6;
 
+// A pair that has just collided is as near to contact as rounding lets it be; one that collided
+// before it has come apart by 1e-5 and more. At random moments no pair is so near. [sigma]
+constexpr double in_touch = 1e-9;
+
 double reach_in(double box, double reach = pair_reach) {
   return std::min(reach, box / 2);
 }
@@ -43,7 +47,7 @@ class Counts {
   void add(double distance2) {
     const double r = std::sqrt(distance2);
     const double beyond = r - contact_;
-    if (beyond < -overlap) return;
+    if (beyond < -overlap || std::abs(beyond) < in_touch) return;
     if (beyond < contact_range)
       at_contact_ += contact_weight(std::max(beyond, 0.0) / contact_range) / (d_ == 3 ? r * r : r);
     const auto bin = static_cast<std::size_t>(std::max(beyond, 0.0) / pair_bin);

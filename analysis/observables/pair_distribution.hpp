@@ -7,6 +7,10 @@
 //   sigma   the distance of contact, (sigma_a + sigma_b)/2
 //   chi     g(sigma+)
 //
+// A state that is looked at after a number of collisions has one pair in touch, which it would not
+// have at a moment chosen at random: the pair that has just collided is not counted. It would make
+// chi larger by 40/(n Omega_d N/2), 1.5e-3 at n = 0.1 and N = 32 000.
+//
 // chi is extrapolated without bins. With x = (r - sigma)/w and the weight
 //   W(x) = (1/w) sum_{l <= 3} (2l+1) (-1)^l P_l(2x - 1)    (Christoffel and Darboux),
 // int W g dr over one w is g(sigma) for every cubic g: it is what least squares with a cubic give.

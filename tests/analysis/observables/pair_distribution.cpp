@@ -108,6 +108,20 @@ TEST_CASE("pair_distribution: a shorter reach leaves out bins, and knows the sam
   }
 }
 
+TEST_CASE("pair_distribution: the pair that has just collided is not counted, any other is") {
+  std::vector<Vector> position{{1, 1, 1}, {2, 1, 1}, {5, 5, 5}, {6 + 1e-7, 5, 5}};
+  const auto both = pair_distribution(position, 10);
+  position.resize(2);
+  for (const double r : {1 - 1e-12, 1.0, 1 + 1e-12}) {
+    position[1][0] = position[0][0] + r;
+    const auto touching = pair_distribution(position, 10);
+    CHECK(touching.g[0] == 0);
+    CHECK(touching.g[1] == 0);
+  }
+  CHECK(both.g[0] > 0);
+  CHECK(both.g[1] > 0);
+}
+
 TEST_CASE("pair_distribution: refuses what it cannot tell") {
   CHECK_THROWS_AS(pair_distribution(std::vector<Vector>(5), 3.9), std::invalid_argument);
   CHECK_THROWS_AS(pair_distribution(std::vector<Vector>(1), 10), std::invalid_argument);
