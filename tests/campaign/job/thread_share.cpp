@@ -74,9 +74,6 @@ TEST_CASE("thread share: processors are shared out among large jobs, and a few f
   CHECK(threads_for(job(100'000), share, 1) == 2);
   CHECK(threads_for(job(90'000), share, 1) == 1);
   CHECK(threads_for(job(1000), share, 1) == 1);
-  schema::Job counted = large;
-  counted.observables = {"collision_statistics", "temperature"};
-  CHECK(threads_for(counted, share, 1) == 1);
 }
 
 TEST_CASE("thread share: a job that counts collisions has no use for several") {
