@@ -3,7 +3,10 @@
 #include "engine/simulation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <string_view>
 
 #include "engine/actions/actions.hpp"
 #include "engine/collision/pair_geometry.hpp"
@@ -16,6 +19,9 @@
 namespace haff::engine {
 
 namespace {
+
+// What a state remembers of the particles themselves (mixture.cpp, rough_collision.hpp).
+constexpr std::array<std::string_view, 2> of_particles{"mixture", "spin"};
 
 bool is_effect(std::string_view name) {
   return is_action(name) || std::any_of(other_physics.begin(), other_physics.end(),
@@ -37,15 +43,21 @@ class Simulation::Implementation {
     begin_period();
   }
 
-  void run_to(std::int64_t collisions) {
+  // Returns whether it stopped at the true time.
+  bool run_to(std::int64_t collisions, double time) {
     while (gas.clock.collisions < collisions) {
       const std::int64_t stop = std::min(collisions, next_stop);
-      variant->run(gas, stop, longest_period(count()) * expected);
-      if (gas.clock.collisions < stop)
+      const double longest = longest_period(count()) * expected;
+      const double end = std::max(gas.clock.now, gas.clock.scaled(time));
+      variant->run(gas, stop, std::min(longest, end));
+      if (gas.clock.collisions < stop) {
+        if (end <= longest) return true;
         throw PhysicsError("the particles do not meet any more, after " +
                            std::to_string(gas.clock.collisions) + " collisions");
+      }
       if (gas.clock.collisions == next_stop) synchronize_now();
     }
+    return false;
   }
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(gas.particles.size()); }
@@ -119,7 +131,10 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 void Simulation::run_to(std::int64_t collisions) {
-  self_->run_to(collisions);
+  self_->run_to(collisions, std::numeric_limits<double>::infinity());
+}
+bool Simulation::run_to(std::int64_t collisions, double time) {
+  return self_->run_to(collisions, time);
 }
 std::uint32_t Simulation::particles() const {
   return self_->count();
@@ -183,6 +198,19 @@ State Simulation::state() const {
   State state = to_state(self_->gas.particles, self_->gas.clock, self_->gas.box);
   self_->variant->store(state);
   for (const auto& action : self_->actions) action->store(state);
+  return state;
+}
+
+State Simulation::snapshot() const {
+  const Gas& gas = self_->gas;
+  State state = to_state(gas.particles, gas.clock, gas.box);
+  self_->variant->store(state);
+  std::erase_if(state.memory, [](const auto& remembered) {
+    return std::ranges::find(of_particles, remembered.first) == of_particles.end();
+  });
+  state.position = positions();
+  state.time = time();
+  state.tally = {};
   return state;
 }
 

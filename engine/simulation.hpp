@@ -122,9 +122,14 @@ class Simulation {
   // whenever that is due. Throws PhysicsError or Collapse; after that the gas can only be observed.
   void run_to(std::int64_t collisions);
 
+  // The same, but not beyond this true time. Returns true if it stops there, between two
+  // collisions: fewer have happened, and positions() are those of that moment. The trajectory is
+  // the same wherever a run stops. A time that has passed is now.
+  bool run_to(std::int64_t collisions, double time);
+
   std::uint32_t particles() const;
   std::int64_t collisions() const;
-  double time() const;        // the true time of the last event
+  double time() const;        // the true time of the last event, or that a run has stopped at
   bool synchronized() const;  // whether state() may be called
 
   // Scaled velocities (true velocity = velocity * 2^-exponent), in an order that depends on the
@@ -147,6 +152,10 @@ class Simulation {
 
   // The state; throws std::logic_error if the gas is not synchronized.
   State state() const;
+
+  // What the gas is at time(), synchronized or not: positions, velocities, species and spins, to be
+  // looked at. It has no memory and no tally: the trajectory does not go on from it.
+  State snapshot() const;
 
   Events events() const;                   // since the simulation was made
   std::optional<Windows> windows() const;  // nothing if it runs on one thread

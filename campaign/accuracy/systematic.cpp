@@ -26,15 +26,6 @@ using analysis::Estimate;
 // Every second and every fifth sample.
 constexpr std::size_t thinned[] = {2, 5};
 
-// How a job was prepared, without how it was looked at.
-schema::Job unobserved(schema::Job job) {
-  job.sample_every = 1;
-  job.observables.clear();
-  job.profiles_every = std::nullopt;
-  job.fields_at.clear();
-  return job;
-}
-
 // A condition that series of one gas may differ in, and how good it is: the more the better.
 struct Condition {
   SystematicEffect cause;
@@ -60,7 +51,7 @@ std::vector<Alternatives> alternatives(const Condition& condition,
                                        const std::vector<const FinishedSeries*>& gas) {
   std::map<std::string, Alternatives> groups;
   for (const FinishedSeries* series : gas) {
-    schema::Job job = unobserved(series->job);
+    schema::Job job = unsampled(series->job);
     condition.neutralize(job);
     const FinishedSeries*& place =
         groups[schema::series_identity(job)][condition.goodness(series->job)];
@@ -241,7 +232,7 @@ std::string name(SystematicEffect cause) {
 }
 
 std::string gas_key(schema::Job job) {
-  job = unobserved(std::move(job));
+  job = unsampled(std::move(job));
   for (const Condition& condition : conditions) condition.neutralize(job);
   return schema::series_identity(job);
 }

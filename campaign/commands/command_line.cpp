@@ -42,9 +42,9 @@ CLI::App* add_document(CLI::App& app, std::string& kind) {
 }
 
 // Those that print a table or the like, and print JSON when asked.
-constexpr std::string_view with_json[] = {"plan",   "run",    "status", "explain",    "query",
-                                          "theory", "verify", "retry",  "cancel",     "split",
-                                          "merge",  "recall", "cost",   "plot --list"};
+constexpr std::string_view with_json[] = {"plan",   "run",    "status", "explain",     "query",
+                                          "theory", "verify", "retry",  "cancel",      "split",
+                                          "merge",  "recall", "cost",   "plot --list", "export"};
 
 std::string names_with_json() {
   return fmt::format("{}", fmt::join(with_json, ", "));

@@ -14,6 +14,7 @@
 #include "campaign/commands/cluster/recall.hpp"
 #include "campaign/commands/cluster/split.hpp"
 #include "campaign/commands/cluster/submit.hpp"
+#include "campaign/commands/results/export.hpp"
 #include "campaign/commands/results/plot.hpp"
 #include "campaign/commands/results/query.hpp"
 #include "campaign/commands/results/report.hpp"
@@ -35,9 +36,6 @@ struct QueryCommand {
   std::string sql;
   RowFormat format = RowFormat::table;
 };
-struct ExportCommand {
-  std::int64_t job_id = 0;
-};
 struct RetryCommand {};
 struct BackupCommand {
   std::filesystem::path to;
@@ -51,7 +49,7 @@ struct WorkerCommand {  // what `run` starts; not for people
 };
 
 using Command = std::variant<PlanOptions, RunOptions, StatusOptions, ExplainCommand, QueryCommand,
-                             FigureRequest, PlotOptions, CostRequest, ExportCommand, VerifyOptions,
+                             FigureRequest, PlotOptions, CostRequest, ExportOptions, VerifyOptions,
                              RetryCommand, CancelOptions, BackupCommand, UpgradeCommand,
                              SplitOptions, MergeOptions, RecallOptions, SubmitOptions, TaskOptions,
                              TheoryOptions, ReportOptions, WorkerCommand>;

@@ -73,9 +73,9 @@ struct CommandDispatcher {
     return draw_figures(schema::Reader(line.store), request, report);
   }
   int operator()(const PlotOptions& options) const { return plot(line.store, options); }
-  int operator()(const ExportCommand& command) const {
+  int operator()(const ExportOptions& options) const {
     const HostLock lock(line.store, Use::read);
-    return export_state(line.store, command.job_id, std::cout);
+    return export_state(line.store, options, std::cout);
   }
   int operator()(const CostRequest& request) const {
     const HostLock lock(line.store, Use::read);

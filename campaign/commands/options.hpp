@@ -54,7 +54,7 @@ CLI::App* add_upgrade(CLI::App& app, UpgradeCommand& options);
 CLI::App* add_query(CLI::App& app, QueryCommand& options);
 CLI::App* add_figures(CLI::App& app, FigureRequest& options);
 CLI::App* add_plot(CLI::App& app, PlotOptions& options);
-CLI::App* add_export(CLI::App& app, ExportCommand& options);
+CLI::App* add_export(CLI::App& app, ExportOptions& options);
 CLI::App* add_cost(CLI::App& app, CostRequest& options);
 CLI::App* add_report(CLI::App& app, ReportOptions& options);
 CLI::App* add_theory(CLI::App& app, TheoryOptions& options);

@@ -13,8 +13,8 @@ namespace haff::campaign {
 namespace {
 
 // A gas as the views of the store have it, then its tau where it is a profile's.
-constexpr const char* gas = "d, n, particles, e, equilibrate, sample_every, effects";
-constexpr std::size_t gas_columns = 7;
+constexpr const char* gas = "d, n, particles, e, equilibrate, sample_every, effects, sample_at";
+constexpr std::size_t gas_columns = 8;
 
 std::optional<double> number(const schema::Value& value) {
   if (const auto* real = std::get_if<double>(&value)) return *real;
@@ -106,11 +106,7 @@ Observations quantities_of(const schema::Reader& store, const Vocabulary& words,
       run.correlations = store.profiles(row.job_id, "G_parallel");
     const auto value = value_of(quantity, row.job, run);
     if (!value) continue;
-    schema::Job gas_alone = row.job;
-    gas_alone.observables.clear();
-    gas_alone.profiles_every.reset();
-    gas_alone.fields_at.clear();
-    const std::string key = schema::series_identity(gas_alone);
+    const std::string key = schema::series_identity(unobserved(row.job));
     Observation& each = all[key];
     if (each.readings.empty()) {
       each.scene = scene_of(row.job);

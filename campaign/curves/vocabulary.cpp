@@ -73,7 +73,8 @@ std::string effect_columns(const Vocabulary& words) {
 
 constexpr const char* job_columns =
     "jobs.job_id AS job_id, jobs.d AS d, jobs.e AS e, jobs.n AS n, jobs.particles AS particles, "
-    "jobs.equilibrate AS equilibrate, jobs.sample_every AS sample_every, jobs.effects AS effects, "
+    "jobs.equilibrate AS equilibrate, jobs.sample_every AS sample_every, "
+    "jobs.sample_at AS sample_at, jobs.effects AS effects, "
     "jobs.seed AS seed, jobs.tau_max AS tau_max, "
     "jobs.profiles_every AS profiles_every, coalesce(jobs.code_version, '') AS code_version";
 constexpr const char* finished = "kind = 'cooling' AND status = 'done'";
@@ -156,9 +157,11 @@ std::string sample_rows(const Vocabulary& words) {
                                                 : fmt::format(", {} AS {}", derived->sql, name);
   }
   return fmt::format(
-      "(SELECT {}{}, samples.tau AS tau{}, samples.tau - jobs.sample_every / 2 AS middle_tau, "
+      "(SELECT {}{}, samples.tau AS tau{}, iif(jobs.sample_at IS NULL, "
+      "samples.tau - jobs.sample_every / 2, (samples.tau + {}) / 2) AS middle_tau, "
       "(samples.time + {}) / 2 AS middle_time FROM jobs JOIN samples USING (job_id) WHERE {})",
-      job_columns, effect_columns(words), columns, sample_before("time"), finished);
+      job_columns, effect_columns(words), columns, sample_before("tau"), sample_before("time"),
+      finished);
 }
 
 std::string profile_rows(const Vocabulary& words, const std::string& profile) {

@@ -13,6 +13,7 @@
 #include "campaign/base/process/cpu_time.hpp"
 #include "campaign/base/process/signals.hpp"
 #include "campaign/base/text/job_text.hpp"
+#include "campaign/job/at_time.hpp"
 #include "campaign/job/collisions.hpp"
 #include "campaign/job/measurement.hpp"
 #include "campaign/state/checkpoint.hpp"
@@ -39,6 +40,8 @@ constexpr double patience = 3.0;
 std::string threads_text(unsigned threads) {
   return threads == 1 ? "1 thread" : fmt::format("{} threads", threads);
 }
+// Snapshots that wait for the next state take no more memory than this. [bytes]
+constexpr std::size_t most_waiting = std::size_t{64} << 20;
 
 }  // namespace
 
@@ -80,6 +83,12 @@ void Attempt::begin(const engine::State& state) {
   if (threads_ > 1 && model_of(job()).counts_collisions)
     log("runs on one thread: collision_statistics needs the order of all collisions");
   make_gas(state);
+  snapshots_.clear();
+  const auto first = [&](const schema::Moments& moments) {
+    return moments.next(std::nextafter(gas_->time(), -1.0));
+  };
+  sample_time_ = first(job().sample_at.time);
+  snapshot_time_ = first(job().snapshots_at.time);
   if (gas_->collisions() > 0) log(fmt::format("goes on from tau = {:.6g}", tau()));
   speed_from_ = gas_->collisions();
   speed_since_ = renewed_ = Clock::now();
@@ -108,7 +117,12 @@ void Attempt::adapt_threads() {
 
 bool Attempt::advance_to(std::int64_t collisions) {
   while (gas_->collisions() < collisions) {
-    gas_->run_to(std::min({collisions, gas_->collisions() + stretch, diffusion_.next_look()}));
+    const std::int64_t stop =
+        std::min({collisions, gas_->collisions() + stretch, diffusion_.next_look()});
+    if (gas_->run_to(stop, next_time())) {
+      see_to_time(next_time());
+      continue;
+    }
     if (gas_->collisions() == diffusion_.next_look()) diffusion_.look(*gas_);
     report_progress();
     if (gas_->collisions() < collisions && is_asked_to_leave() && !may_go_on_to_synchronization())
@@ -129,13 +143,49 @@ void Attempt::sample(double tau) {
   views_.fields.insert(views_.fields.end(), taken.fields.begin(), taken.fields.end());
 }
 
+void Attempt::snapshot(double tau) {
+  add_snapshot(tau, gas_->time());
+}
+
+void Attempt::add_snapshot(double tau, double time) {
+  snapshots_.push_back({.tau = tau,
+                        .time = time,
+                        .collisions = gas_->collisions(),
+                        .state = encode(gas_->snapshot())});
+  std::size_t bytes = 0;
+  for (const schema::Snapshot& each : snapshots_) bytes += each.state.size();
+  if (bytes > most_waiting) commit_rows();
+}
+
+void Attempt::see_to_time(double time) {
+  if (sample_time_ == time) {
+    const auto points = measure_at_time(*gas_, job(), time);
+    views_.profiles.insert(views_.profiles.end(), points.begin(), points.end());
+    sample_time_ = job().sample_at.time.next(time);
+  }
+  if (snapshot_time_ == time) {
+    add_snapshot(tau(), time);
+    snapshot_time_ = job().snapshots_at.time.next(time);
+  }
+}
+
 void Attempt::commit(double tau) {
   schema::Commit commit = pending_commit(tau);
   commit.checkpoint = checkpoint(tau);
   store_.commit(claim_.lease, commit);
+  forget_pending();
+  if (!is_asked_to_leave() && tau < claim_.tau_max) adapt_threads();
+}
+
+void Attempt::commit_rows() {
+  store_.commit(claim_.lease, pending_commit(tau()));
+  forget_pending();
+}
+
+void Attempt::forget_pending() {
   committed_ = samples_.size();
   views_ = {};
-  if (!is_asked_to_leave() && tau < claim_.tau_max) adapt_threads();
+  snapshots_.clear();
 }
 
 bool Attempt::is_asked_to_leave() const {
@@ -224,6 +274,7 @@ schema::Commit Attempt::pending_commit(double tau) const {
   return {.samples = {samples_.begin() + static_cast<std::ptrdiff_t>(committed_), samples_.end()},
           .profiles = views_.profiles,
           .fields = views_.fields,
+          .snapshots = snapshots_,
           .invariants = schema::Invariants{.largest_overlap = engine::largest_overlap(seen),
                                            .past_events = seen.past_events,
                                            .unresolved_collisions = seen.unresolved_collisions,

@@ -7,6 +7,7 @@
 // is renewed, and a wish to stop is heard.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <optional>
@@ -45,10 +46,12 @@ class Attempt {
 
   // False if asked to stop, unless the state can be stored soon, at the next synchronization, or a
   // limit asks (SIGUSR1), which leaves the time for that.
+  // Moments in time that come on the way are seen to.
   [[nodiscard]] bool advance_to(std::int64_t collisions);
 
-  void sample(double tau);  // and the profiles and fields that go with it
-  void commit(double tau);  // what was measured and the state, at a synchronization
+  void sample(double tau);    // and the profiles and fields that go with it
+  void snapshot(double tau);  // the whole gas
+  void commit(double tau);    // what was measured and the state, at a synchronization
   bool is_asked_to_leave() const;
 
   Ending leave();
@@ -64,6 +67,14 @@ class Attempt {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  // Samples and snapshots at moments of time: the next, infinity if there is none.
+  double next_time() const { return std::min(sample_time_, snapshot_time_); }
+  void see_to_time(double time);
+  void add_snapshot(double tau, double time);
+  // What was measured, without a state: it comes out again after an interruption.
+  void commit_rows();
+  void forget_pending();  // it is in the store
 
   void log(const std::string& what) const;
   void make_gas(const engine::State& state);
@@ -86,8 +97,10 @@ class Attempt {
   unsigned threads_ = 1;
   std::optional<engine::Simulation> gas_;
   std::vector<schema::Sample> samples_;
-  std::size_t committed_ = 0;  // of samples_, or in the store from an earlier attempt
-  Views views_;                // since the last commit
+  std::size_t committed_ = 0;                // of samples_, or in the store from an earlier attempt
+  Views views_;                              // since the last commit
+  std::vector<schema::Snapshot> snapshots_;  // the same
+  double sample_time_ = 0, snapshot_time_ = 0;  // the next of each
   Diffusion diffusion_;
 
   double cpu_at_start_;

@@ -23,6 +23,10 @@ Ending cool(Attempt& attempt) {
       attempt.sample(stop->tau);
       continue;
     }
+    if (stop->due == Stop::Due::snapshot) {
+      attempt.snapshot(stop->tau);
+      continue;
+    }
     const bool leaving = attempt.is_asked_to_leave();
     if (stop->keep || leaving) attempt.commit(stop->tau);
     if (leaving) return attempt.leave();

@@ -167,7 +167,7 @@ std::vector<schema::Profile> Diffusion::sample(const engine::Simulation& gas, do
   std::vector<schema::Profile> points;
   for (Waiting& each : waiting_) {
     const double lag = tau - each.tau;
-    const bool is_now = std::abs(lag) < 0.5 * job_.sample_every;
+    const bool is_now = std::abs(lag) < 0.5 * job_.sample_every && is_at_interval(job_, tau);
     if (each.position.empty() && is_now) {
       each.position = here;
       each.velocity = velocity_;

@@ -35,15 +35,14 @@ double mean_temperature(std::span<const schema::Sample> earlier, const schema::S
   return analysis::mean_temperature(time, temperature);
 }
 
-void measure_temperature(schema::Sample& sample, double temperature, double virial,
-                         double collisions, const schema::Job& job,
-                         std::span<const schema::Sample> earlier) {
-  sample.temperature = temperature;
+// What is an average over the interval since the row before.
+void measure_interval(schema::Sample& sample, double virial, double collisions,
+                      const schema::Job& job, std::span<const schema::Sample> earlier) {
   if (earlier.empty() || !earlier.back().temperature) return;
   const schema::Sample& previous = earlier.back();
   const double elapsed = sample.time - previous.time;
   if (cools_by_haff(job))
-    sample.gamma_ratio = if_finite(analysis::gamma_ratio(*previous.temperature, temperature,
+    sample.gamma_ratio = if_finite(analysis::gamma_ratio(*previous.temperature, *sample.temperature,
                                                          sample.tau - previous.tau, *job.e, job.d));
   sample.collision_rate = if_finite(analysis::collision_rate(collisions, job.particles, elapsed));
   sample.pressure = if_finite(analysis::pressure(job.n, mean_temperature(earlier, sample), virial,
@@ -70,31 +69,31 @@ void measure_laguerre(schema::Sample& sample, const analysis::LaguerreCoefficien
 
 }  // namespace
 
-schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double tau,
-                       std::span<const schema::Sample> earlier) {
-  schema::Sample sample;
-  sample.tau = tau;
-  sample.time = gas.time();
-
-  const engine::Tally tally = gas.take_tally();
+schema::Sample measure_moment(const engine::Simulation& gas, const schema::Job& job, double tau) {
+  schema::Sample sample{.tau = tau, .time = gas.time()};
   if (!asks_for(job, "temperature") && !asks_for(job, "laguerre")) return sample;
 
   const auto mixture = mixture_of(job);
   const analysis::Moments moments = analysis::moments(weighted_velocities(gas, mixture), job.d);
   if (asks_for(job, "temperature")) {
-    const double temperature = std::ldexp(moments.temperature, -2 * gas.exponent());
-    const std::int64_t collisions =
-        earlier.empty()
-            ? 0
-            : gas.collisions() - engine::collisions_at(earlier.back().tau, job.particles);
-    measure_temperature(sample, temperature, tally.virial, static_cast<double>(collisions), job,
-                        earlier);
+    sample.temperature = std::ldexp(moments.temperature, -2 * gas.exponent());
     if (const auto energy = gas.rotational_energy())
       sample.rotational_temperature =
           std::ldexp(*energy * 2 / axes_of_rotation(job.d), -2 * gas.exponent());
     if (mixture) measure_species(sample, gas, *mixture, job);
   }
   if (asks_for(job, "laguerre")) measure_laguerre(sample, moments.laguerre);
+  return sample;
+}
+
+schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double tau,
+                       std::span<const schema::Sample> earlier) {
+  schema::Sample sample = measure_moment(gas, job, tau);
+  const engine::Tally tally = gas.take_tally();
+  if (!sample.temperature || earlier.empty()) return sample;
+  const std::int64_t collisions =
+      gas.collisions() - engine::collisions_at(earlier.back().tau, job.particles);
+  measure_interval(sample, tally.virial, static_cast<double>(collisions), job, earlier);
   return sample;
 }
 

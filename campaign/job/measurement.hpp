@@ -23,6 +23,9 @@ namespace haff::campaign {
 schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double tau,
                        std::span<const schema::Sample> earlier);
 
+// What of it is of the moment, at tau: nothing is taken.
+schema::Sample measure_moment(const engine::Simulation& gas, const schema::Job& job, double tau);
+
 // The end of the homogeneous stage, from all samples of a job.
 schema::Results results(const std::vector<schema::Sample>& samples, const schema::Job& job);
 

@@ -60,6 +60,27 @@ void run(schema::Store& store) {
   }
 }
 
+// Rows of snapshots say what their bytes should be; whether they are is another question.
+std::vector<schema::Difference> damaged_snapshots(const schema::Reader& store,
+                                                  const schema::JobRow& row) {
+  std::vector<schema::Difference> found;
+  auto rows = store.query(
+      fmt::format("SELECT time FROM snapshots WHERE job_id = {} ORDER BY time", row.job_id));
+  while (const auto snapshot = rows.next()) {
+    const double time = std::get<double>(snapshot->front());
+    try {
+      store.snapshot(row.job_id, time);
+    } catch (const schema::Damage&) {
+      found.push_back({.part = schema::Part::snapshots,
+                       .row = fmt::format("time = {}", time),
+                       .column = "state",
+                       .here = "damaged",
+                       .there = "sound"});
+    }
+  }
+  return found;
+}
+
 std::string described(const std::optional<schema::Checkpoint>& state) {
   if (!state) return "none";
   return fmt::format("{} bytes with the checksum {:016x} at tau = {}", state->state.size(),
@@ -83,10 +104,11 @@ std::vector<schema::Difference> differences(const schema::Reader& store, const s
                                             const Recomputation& again) {
   using schema::Part;
   std::vector<schema::Difference> all;
-  for (const Part part : {Part::samples, Part::profiles, Part::fields, Part::results}) {
+  for (const Part part : computed_parts) {
     const auto found = store.differences(row.job_id, part, again.store, again.job_id);
     all.insert(all.end(), found.begin(), found.end());
   }
+  for (const schema::Difference& damaged : damaged_snapshots(store, row)) all.push_back(damaged);
   if (row.job.kind == schema::Kind::equilibration) {
     std::optional<schema::Checkpoint> here;
     try {

@@ -4,6 +4,7 @@
 // the same bits: what comes out differs from what is stored only if one of the two was disturbed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -30,8 +31,13 @@ struct Recomputation {
 // what the engine throws.
 Recomputation recompute(const schema::Reader& store, const schema::JobRow& row);
 
-// Every value of samples, profiles, fields and results, and of an equilibration the state it ended
-// in, that is not the same in all bits.
+// What a second computation gives. A job has its row, its cost and its newest state beside.
+inline constexpr std::array computed_parts{schema::Part::samples, schema::Part::profiles,
+                                           schema::Part::fields, schema::Part::snapshots,
+                                           schema::Part::results};
+
+// Every value of these parts, and of an equilibration the state it ended in, that is not the same
+// in all bits.
 std::vector<schema::Difference> differences(const schema::Reader& store, const schema::JobRow& row,
                                             const Recomputation& again);
 

@@ -34,13 +34,14 @@ double sample_tau(double sample_every, std::int64_t k) {
 }
 
 bool has_profiles(const schema::Job& job, double tau) {
-  if (!job.profiles_every) return false;
+  if (!job.profiles_every || !is_at_interval(job, tau)) return false;
   const double k = std::round(tau / *job.profiles_every);
   return is_same(tau, k * *job.profiles_every, job.sample_every);
 }
 
 bool has_fields(const schema::Job& job, double tau) {
-  return std::any_of(job.fields_at.begin(), job.fields_at.end(),
+  return is_at_interval(job, tau) &&
+         std::any_of(job.fields_at.begin(), job.fields_at.end(),
                      [&](double at) { return is_same(tau, at, job.sample_every); });
 }
 
@@ -59,42 +60,133 @@ bool is_checkpoint(std::int64_t k, double checkpoint_every) {
   return multiples_through(k) > multiples_through(k - 1);
 }
 
+SampleTaus::SampleTaus(const schema::Job& job)
+    : moments_(job.sample_at.tau), sample_every_(job.sample_every), particles_(job.particles) {
+  find_listed(-1);
+}
+
+void SampleTaus::advance() {
+  if (is_listed())
+    find_listed(listed_);
+  else
+    ++next_;
+}
+
+// The next moment that is a collision of its own.
+void SampleTaus::find_listed(double after) {
+  const auto collisions = [&](double tau) { return engine::collisions_at(tau, particles_); };
+  const auto is_one = [&](double tau, double other) {
+    return collisions(tau) == collisions(other) || std::abs(tau - other) <= rounding * tau;
+  };
+  for (listed_ = moments_.next(after); std::isfinite(listed_); listed_ = moments_.next(listed_)) {
+    const std::int64_t k = whole(std::floor(listed_ / sample_every_));
+    const bool is_new = !is_one(listed_, sample_tau(sample_every_, k)) &&
+                        !is_one(listed_, sample_tau(sample_every_, k + 1)) &&
+                        (after < 0 || !is_one(listed_, after));
+    if (is_new) return;
+  }
+}
+
+std::int64_t sample_count(const schema::Job& job, double tau_max) {
+  std::int64_t count = sample_count(job.sample_every, tau_max);
+  if (job.sample_at.tau.empty()) return count;
+  const double end = tau_max * (1 + rounding);
+  for (SampleTaus taus(job); taus.tau() <= end; taus.advance()) count += taus.is_listed() ? 1 : 0;
+  return count;
+}
+
+std::int64_t count_through(const schema::Moments& moments, double tau_max) {
+  std::int64_t count = 0;
+  for (double tau = moments.next(-1); tau <= tau_max * (1 + rounding); tau = moments.next(tau))
+    ++count;
+  return count;
+}
+
+namespace {
+
+// The last of these moments by `end`; 0 if there is none.
+double last_by(const schema::Moments& moments, double end) {
+  double last = 0;
+  for (double tau = moments.next(-1); tau <= end; tau = moments.next(tau)) last = tau;
+  return last;
+}
+
+}  // namespace
+
 Timetable::Timetable(const schema::Job& job, double tau_max, double checkpoint_every)
-    : sample_every_(job.sample_every),
+    : taus_(job),
+      snapshots_at_(job.snapshots_at.tau),
+      end_(tau_max * (1 + rounding)),
       checkpoint_every_(checkpoint_every),
       particles_(job.particles),
-      samples_(sample_count(job.sample_every, tau_max)),
-      last_synchronization_(whole(
-          std::floor(sample_tau(sample_every_, samples_ - 1) / engine::synchronization_period))) {}
+      samples_at_intervals_(sample_count(job.sample_every, tau_max)),
+      snapshot_(snapshots_at_.next(-1)) {
+  const double last = std::max({sample_tau(job.sample_every, samples_at_intervals_ - 1),
+                                last_by(job.sample_at.tau, end_), last_by(snapshots_at_, end_)});
+  last_synchronization_ = whole(std::floor(last / engine::synchronization_period));
+}
 
 void Timetable::skip_through(std::int64_t collisions) {
-  while (next_sample_ < samples_ && sample().collisions <= collisions) ++next_sample_;
-  while (next_synchronization_ <= last_synchronization_ &&
-         synchronization().collisions <= collisions)
-    ++next_synchronization_;
+  while (const auto stop = sample()) {
+    if (stop->collisions > collisions) break;
+    pass(*stop);
+  }
+  while (const auto stop = snapshot()) {
+    if (stop->collisions > collisions) break;
+    pass(*stop);
+  }
+  while (const auto stop = synchronization()) {
+    if (stop->collisions > collisions) break;
+    pass(*stop);
+  }
 }
 
 std::optional<Stop> Timetable::next() {
-  const bool sample_left = next_sample_ < samples_;
-  const bool synchronization_left = next_synchronization_ <= last_synchronization_;
-  if (!sample_left && !synchronization_left) return std::nullopt;
-  const bool sample_first =
-      !synchronization_left || (sample_left && sample().collisions <= synchronization().collisions);
-  const Stop stop = sample_first ? sample() : synchronization();
-  ++(sample_first ? next_sample_ : next_synchronization_);
+  const auto stop = first();
+  if (stop) pass(*stop);
   return stop;
 }
 
-Stop Timetable::sample() const {
-  const double tau = sample_tau(sample_every_, next_sample_);
-  return {Stop::Due::sample, tau, engine::collisions_at(tau, particles_), false};
+// At the same collision a sample comes before a snapshot, and that before a synchronization.
+std::optional<Stop> Timetable::first() const {
+  std::optional<Stop> first;
+  for (const auto& stop : {sample(), snapshot(), synchronization()})
+    if (stop && (!first || stop->collisions < first->collisions)) first = stop;
+  return first;
 }
 
-Stop Timetable::synchronization() const {
+void Timetable::pass(const Stop& stop) {
+  switch (stop.due) {
+    case Stop::Due::sample:
+      return taus_.advance();
+    case Stop::Due::snapshot:
+      snapshot_ = snapshots_at_.next(snapshot_);
+      return;
+    case Stop::Due::synchronization:
+      ++next_synchronization_;
+      return;
+  }
+}
+
+std::optional<Stop> Timetable::sample() const {
+  const double tau = taus_.tau();
+  const bool is_left =
+      taus_.is_listed() ? tau <= end_ : taus_.at_intervals_before() < samples_at_intervals_;
+  if (!is_left) return std::nullopt;
+  return Stop{Stop::Due::sample, tau, engine::collisions_at(tau, particles_), false};
+}
+
+std::optional<Stop> Timetable::snapshot() const {
+  if (!(snapshot_ <= end_)) return std::nullopt;
+  return Stop{Stop::Due::snapshot, snapshot_, engine::collisions_at(snapshot_, particles_), false};
+}
+
+std::optional<Stop> Timetable::synchronization() const {
+  if (next_synchronization_ > last_synchronization_) return std::nullopt;
   const double tau = synchronization_tau(next_synchronization_);
-  return {Stop::Due::synchronization, tau, engine::collisions_at(tau, particles_),
-          next_synchronization_ == last_synchronization_ ||
-              is_checkpoint(next_synchronization_, checkpoint_every_)};
+  return Stop{Stop::Due::synchronization, tau, engine::collisions_at(tau, particles_),
+              next_synchronization_ == last_synchronization_ ||
+                  is_checkpoint(next_synchronization_, checkpoint_every_)};
 }
 
 }  // namespace haff::campaign

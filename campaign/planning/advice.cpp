@@ -29,15 +29,6 @@ constexpr Parameter parameters[] = {
     {"sample_every", [](const schema::Job& job) { return std::optional(job.sample_every); }},
 };
 
-// All that decides the trajectory, and nothing of what is measured.
-std::string gas_of(schema::Job job) {
-  job.observables.clear();
-  job.profiles_every = std::nullopt;
-  job.fields_at.clear();
-  job.sample_every = 1;
-  return identity(job);
-}
-
 }  // namespace
 
 std::vector<std::string> near_twins(const std::vector<schema::Planned>& plan,
@@ -68,13 +59,13 @@ std::size_t recomputed(const std::vector<schema::Planned>& plan,
   std::unordered_set<std::string> gases, jobs;
   for (const schema::JobRow& row : known) {
     if (row.job.kind != schema::Kind::cooling || row.progress.collisions == 0) continue;
-    gases.insert(gas_of(row.job));
+    gases.insert(identity(unsampled(row.job)));
     jobs.insert(identity(row.job));
   }
   if (gases.empty()) return 0;
   return static_cast<std::size_t>(std::ranges::count_if(plan, [&](const schema::Planned& planned) {
     return planned.job.kind == schema::Kind::cooling && !jobs.contains(identity(planned.job)) &&
-           gases.contains(gas_of(planned.job));
+           gases.contains(identity(unsampled(planned.job)));
   }));
 }
 

@@ -52,6 +52,8 @@ void for_each_job(const schema::SubGrid& grid, Visit&& visit) {
                   job.observables = grid.observables;
                   job.profiles_every = grid.profiles_every;
                   job.fields_at = grid.fields_at;
+                  job.sample_at = grid.sample_at;
+                  job.snapshots_at = grid.snapshots_at;
                   visit(job, grid.tau_max[k]);
                 }
 }

@@ -9,6 +9,8 @@
 #include "analysis/observables/coarse_grained.hpp"
 #include "analysis/observables/pair_distribution.hpp"
 #include "analysis/observables/tail.hpp"
+#include "analysis/theory/cooling.hpp"
+#include "analysis/theory/enskog.hpp"
 #include "campaign/job/timetable.hpp"
 #include "campaign/state/model.hpp"
 #include "engine/initial.hpp"
@@ -59,17 +61,31 @@ double end_of(const schema::Planned& plan) {
 // How often a job does what, as its timetable says (campaign/job/timetable.hpp), without walking
 // through it: a run may have millions of stops.
 struct Counts {
-  double samples = 0, profiles = 0, fields = 0, synchronizations = 0, commits = 0;
+  double samples = 0, profiles = 0, fields = 0, snapshots = 0, synchronizations = 0, commits = 0;
+  double at_times = 0;  // samples at moments of time
 };
+
+// When a gas that cools by Haff's law, or does not cool, reaches tau: only how many moments in time
+// come before that hangs on it.
+double expected_time(const schema::Job& job, double tau) {
+  const double temperature = analysis::initial_temperature(job.d);
+  const double rate = analysis::transport(job.n, temperature, job.d).collision_rate;
+  const double decay = cools_by_haff(job) ? (1 - *job.e * *job.e) / (2.0 * job.d) : 0;
+  return decay > 0 ? std::expm1(decay * tau) / (decay * rate) : tau / rate;
+}
 
 Counts counts_of(const schema::Planned& plan) {
   const double end = end_of(plan);
   Counts counts;
-  counts.samples = static_cast<double>(sample_count(plan.job.sample_every, end));
+  counts.samples = static_cast<double>(sample_count(plan.job, end));
   if (plan.job.profiles_every)
     counts.profiles = static_cast<double>(sample_count(*plan.job.profiles_every, end));
   counts.fields = static_cast<double>(
       std::ranges::count_if(plan.job.fields_at, [&](double tau) { return tau <= end; }));
+  const double last_time = expected_time(plan.job, end);
+  counts.at_times = static_cast<double>(count_through(plan.job.sample_at.time, last_time));
+  counts.snapshots = static_cast<double>(count_through(plan.job.snapshots_at.tau, end) +
+                                         count_through(plan.job.snapshots_at.time, last_time));
   counts.synchronizations = std::floor(end / engine::synchronization_period);
   counts.commits = std::min(counts.synchronizations,
                             std::floor(end / plan.checkpoint_every) + 1);  // the last one too
@@ -79,9 +95,9 @@ Counts counts_of(const schema::Planned& plan) {
 double sum_of(const Prices& prices, const schema::Planned& plan) {
   const Counts counts = counts_of(plan);
   return prices.start + 0.5 * end_of(plan) * plan.job.particles * prices.collision +
-         counts.samples * prices.sample + counts.profiles * prices.profiles +
+         (counts.samples + counts.at_times) * prices.sample + counts.profiles * prices.profiles +
          counts.fields * prices.fields + counts.synchronizations * prices.synchronization +
-         counts.commits * prices.commit;
+         (counts.commits + counts.snapshots) * prices.commit;
 }
 
 // Points of all the curves that are taken at once, and bytes of a point (a row with a name, three
@@ -114,6 +130,9 @@ double profile_points(const schema::Job& job, double box) {
   }
   return points;
 }
+
+// tau, temperature and five coefficients of a sample at a moment of time.
+constexpr double points_at_time = 7;
 
 // Of each sample, msd with diffusion, and vacf.
 double diffusion_points(const schema::Job& job) {
@@ -207,8 +226,11 @@ const Sizes& Forecast::sizes_of(const schema::Job& job) {
 double Forecast::disk_bytes(const schema::Planned& plan) {
   const Counts counts = counts_of(plan);
   const double state = counts.commits > 0 ? sizes_of(plan.job).state : 0;
-  return job_bytes + state * plan.job.particles + (state > 0 ? remembered_bytes(plan.job) : 0) +
-         sample_bytes * counts.samples +
+  // A snapshot has no invariants and no memory, and is otherwise a state.
+  const double kept = counts.snapshots > 0 ? sizes_of(plan.job).state * plan.job.particles : 0;
+  return job_bytes + counts.snapshots * kept +
+         counts.at_times * profile_row_bytes * points_at_time + state * plan.job.particles +
+         (state > 0 ? remembered_bytes(plan.job) : 0) + sample_bytes * counts.samples +
          counts.profiles * profile_row_bytes * profile_points(plan.job, box_of(plan.job)) +
          counts.samples * profile_row_bytes * diffusion_points(plan.job) +
          counts.fields * field_bytes(plan.job);

@@ -29,6 +29,9 @@ ordered_json physics_json(const schema::Job& job) {
           {"particles", job.particles},
           {"equilibrate", job.equilibrate},
           {"sample_every", job.sample_every},
+          {"sample_at", job.sample_at.empty()
+                            ? ordered_json(nullptr)
+                            : ordered_json::parse(schema::schedule_text(job.sample_at))},
           {"effects", ordered_json::parse(job.effects.text())}};
 }
 

@@ -63,6 +63,9 @@ FinishedRun finished_run(const schema::Reader& store, const schema::JobRow& row)
                   .tau_max = row.tau_max,
                   .cpu_seconds = row.progress.cpu_seconds,
                   .samples = store.samples(row.job_id)};
+  // Errors are told from blocks of samples, and from every second sample: at equal intervals.
+  std::erase_if(run.samples,
+                [&](const auto& sample) { return !is_at_interval(row.job, sample.tau); });
   if (const auto results = store.results(row.job_id)) run.tau_c = results->tau_c;
   return run;
 }

@@ -82,6 +82,9 @@ class Rest {
             {"observables", schema::observables_text(job.observables)},
             {"profiles_every", job.profiles_every ? number_text(*job.profiles_every) : "none"},
             {"fields_at", fields_at(job)},
+            {"sample_at", job.sample_at.empty() ? "none" : schema::schedule_text(job.sample_at)},
+            {"snapshots_at",
+             job.snapshots_at.empty() ? "none" : schema::schedule_text(job.snapshots_at)},
             {"effects", job.effects.text()}};
   }
 

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "campaign/base/text/job_text.hpp"
 #include "campaign/state/energy.hpp"
 #include "campaign/state/model.hpp"
@@ -14,28 +16,30 @@
 namespace haff::campaign {
 namespace {
 
-std::optional<std::string> contradiction(const engine::State& state,
-                                         const schema::Checkpoint& checkpoint,
-                                         const schema::Job& job) {
+std::optional<std::string> contradiction(const engine::State& state, const schema::Job& job) {
   if (state.particles() != job.particles)
     return fmt::format("it holds {} particles, the job has {}", state.particles(), job.particles);
   if (state.d != job.d) return fmt::format("it is of dimension {}, the job of {}", state.d, job.d);
   const double box = engine::box_side(job.n, job.particles, job.d);
   if (state.box != box) return fmt::format("its box has side {}, the job's {}", state.box, box);
-  if (state.collisions != checkpoint.collisions ||
-      state.collisions != engine::collisions_at(checkpoint.tau, job.particles))
-    return fmt::format("it holds the state after {} collisions, which is not tau = {}",
-                       state.collisions, checkpoint.tau);
   if (mixture_in(state) != mixture_of(job)) return "it holds a gas of other species";
   if (auto wrong = unsoundness(state)) return wrong;
   return energy_contradiction(state, job, {});
+}
+
+DamagedCheckpoint not_at(const engine::State& state, double tau) {
+  return DamagedCheckpoint(fmt::format(
+      "it holds the state after {} collisions, which is not tau = {}", state.collisions, tau));
 }
 
 }  // namespace
 
 engine::State restore(const schema::Checkpoint& checkpoint, const schema::Job& job) {
   engine::State state = decode(checkpoint.state);
-  if (const auto wrong = contradiction(state, checkpoint, job)) throw DamagedCheckpoint(*wrong);
+  if (const auto wrong = contradiction(state, job)) throw DamagedCheckpoint(*wrong);
+  if (state.collisions != checkpoint.collisions ||
+      state.collisions != engine::collisions_at(checkpoint.tau, job.particles))
+    throw not_at(state, checkpoint.tau);
   return state;
 }
 
@@ -70,6 +74,29 @@ std::optional<engine::State> newest_state(const schema::Reader& store, std::int6
     throw NewerCheckpoint(
         fmt::format("the state of job {} ({}) was written by a newer program: {}; update campaign",
                     job_id, describe(job), newer.what()));
+  }
+}
+
+std::optional<engine::State> snapshot_state(const schema::Reader& store, std::int64_t job_id,
+                                            const schema::Job& job, double time) {
+  const auto snapshot = store.snapshot(job_id, time);
+  if (!snapshot) return std::nullopt;
+  const std::string name =
+      fmt::format("the snapshot of job {} ({}) at tau = {}", job_id, describe(job), snapshot->tau);
+  try {
+    engine::State state = decode(snapshot->state);
+    if (const auto wrong = contradiction(state, job)) throw DamagedCheckpoint(*wrong);
+    // Of a moment in time, tau is rounded.
+    const double collisions = 0.5 * snapshot->tau * job.particles;
+    if (state.collisions != snapshot->collisions ||
+        std::abs(static_cast<double>(state.collisions) - collisions) > 1)
+      throw not_at(state, snapshot->tau);
+    return state;
+  } catch (const DamagedCheckpoint& damage) {
+    throw DamagedCheckpoint(fmt::format("{} is damaged: {}", name, damage.what()));
+  } catch (const NewerCheckpoint& newer) {
+    throw NewerCheckpoint(
+        fmt::format("{} was written by a newer program: {}; update campaign", name, newer.what()));
   }
 }
 

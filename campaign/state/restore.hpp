@@ -25,6 +25,11 @@ std::optional<engine::State> stored_state(const schema::Reader& store, std::int6
 std::optional<engine::State> newest_state(const schema::Reader& store, std::int64_t job_id,
                                           const schema::Job& job);
 
+// A snapshot of the job in the store; nothing if there is none at this time. Throws schema::Damage,
+// DamagedCheckpoint or NewerCheckpoint, with a message that names the job and the snapshot.
+std::optional<engine::State> snapshot_state(const schema::Reader& store, std::int64_t job_id,
+                                            const schema::Job& job, double time);
+
 // Why no job may go on from this checkpoint, or start from it: the engine that computed it gives
 // other bits than this one (engine::physics_version). Nothing if it may.
 std::optional<std::string> foreign_physics(const schema::Checkpoint& checkpoint);

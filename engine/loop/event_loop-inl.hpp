@@ -45,6 +45,7 @@ class EventLoop {
       if constexpr (prefetching) prefetch_upcoming();
       const Event& event = gas_.queue[p];
       if (event.time > end) {
+        gas_.queue.put_back();
         now_ = end;
         break;
       }

@@ -20,7 +20,8 @@ struct Clock {
   double energy = 0;  // kinetic, per particle, at the last synchronization, in scaled units
   double taken = 0;   // part of the loss since then that is no longer in the tally
 
-  double time() const;  // true
+  double time() const;               // true
+  double scaled(double time) const;  // `now` at this true time
 };
 
 // Kinetic energy of rotation per particle, in scaled units.

@@ -100,6 +100,10 @@ double Clock::time() const {
   return start + std::ldexp(now, exponent);
 }
 
+double Clock::scaled(double time) const {
+  return std::ldexp(time - start, -exponent);
+}
+
 template <class Masses>
 void synchronize(std::span<Particle> particles, Clock& clock, const Box& box, const Masses& masses,
                  Team& team) {

@@ -17,8 +17,8 @@ namespace haff::schema {
 
 namespace {
 
-constexpr std::array part_names{"jobs",    "samples",    "profiles",    "fields",
-                                "results", "invariants", "checkpoints", "loans"};
+constexpr std::array part_names{"jobs",       "samples",     "profiles", "fields",   "results",
+                                "invariants", "checkpoints", "loans",    "snapshots"};
 static_assert(part_names.size() == part_count);
 
 // Tables with one row a job, whose rowid is the job's number: SQLite says which row has changed.
@@ -49,10 +49,12 @@ std::int64_t stored_form(std::uint64_t digest) {
   return static_cast<std::int64_t>(digest);
 }
 
-std::string list_of_numbers(std::size_t count) {
-  std::string list;
-  for (std::size_t k = 0; k < count; ++k) list += k == 0 ? "?" : ", ?";
-  return list;
+// "jobs, samples, ..."
+template <class Word>
+std::string list(const std::vector<Part>& parts, Word&& word) {
+  std::string text;
+  for (const Part part : parts) text += (text.empty() ? "" : ", ") + std::string(word(part));
+  return text;
 }
 
 // A column that was renamed goes on under its old name: its digests stay as they are.
@@ -136,6 +138,18 @@ const DigestedTable& Digests::table(Part part) {
   return *table;
 }
 
+// Those that the table has digests of: a copy of a store of an older version is not brought
+// forward.
+const std::vector<Part>& Digests::parts() {
+  if (!parts_.empty()) return parts_;
+  SQLite::Statement columns(sqlite_, "SELECT name FROM pragma_table_info('digests')");
+  std::set<std::string> names;
+  while (columns.executeStep()) names.insert(columns.getColumn(0).getString());
+  for (std::size_t k = 0; k < part_count; ++k)
+    if (names.contains(part_names.at(k))) parts_.push_back(static_cast<Part>(k));
+  return parts_;
+}
+
 SQLite::Statement& Digests::rows_of(Part part) {
   auto& rows = rows_.at(place(part));
   if (!rows)
@@ -204,21 +218,18 @@ Digests::Row& Digests::row(std::int64_t job_id) {
   if (const auto known = known_.find(job_id); known != known_.end()) return known->second;
   Row row;
   if (new_.contains(job_id)) {
-    for (std::size_t k = 0; k < part_count; ++k)
-      row[k] = table(static_cast<Part>(k)).digest_of_none();
+    for (const Part part : parts()) row.at(place(part)) = table(part).digest_of_none();
   } else {
     if (!read_)
       read_ = std::make_unique<SQLite::Statement>(
-          sqlite_,
-          "SELECT jobs, samples, profiles, fields, results, invariants, checkpoints, loans "
-          "FROM digests WHERE job_id = ?");
+          sqlite_, "SELECT " + list(parts(), name) + " FROM digests WHERE job_id = ?");
     const InUse in_use(*read_);
     read_->bind(1, job_id);
     if (!read_->executeStep())
       throw Altered("job " + std::to_string(job_id) + ": its digests are gone");
-    for (std::size_t k = 0; k < part_count; ++k)
+    for (std::size_t k = 0; k < parts().size(); ++k)
       if (const auto value = read_->getColumn(static_cast<int>(k)); !value.isNull())
-        row[k] = static_cast<std::uint64_t>(value.getInt64());
+        row.at(place(parts()[k])) = static_cast<std::uint64_t>(value.getInt64());
   }
   return known_[job_id] = row;
 }
@@ -313,17 +324,16 @@ void Digests::settle() {
   }
   if (!write_ && !touched_.empty())
     write_ = std::make_unique<SQLite::Statement>(
-        sqlite_,
-        "INSERT OR REPLACE INTO digests (job_id, jobs, samples, profiles, fields, results, "
-        "invariants, checkpoints, loans) VALUES (" +
-            list_of_numbers(1 + part_count) + ")");
+        sqlite_, "INSERT OR REPLACE INTO digests (job_id, " + list(parts(), name) +
+                     ") VALUES (?, " + list(parts(), [](Part) { return "?"; }) + ")");
   for (const std::int64_t job_id : touched_) {
     const InUse in_use(*write_);
     write_->clearBindings();
     write_->bind(1, job_id);
     const Row& digests = row(job_id);
-    for (std::size_t k = 0; k < part_count; ++k)
-      if (digests[k]) write_->bind(static_cast<int>(k) + 2, stored_form(*digests[k]));
+    for (std::size_t k = 0; k < parts().size(); ++k)
+      if (const auto& digest = digests.at(place(parts()[k])))
+        write_->bind(static_cast<int>(k) + 2, stored_form(*digest));
     write_->exec();
   }
   for (const std::string& table : changed_tables_) {

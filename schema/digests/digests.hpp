@@ -9,7 +9,7 @@
 //   * before it changes a row of jobs, or a small table, it checks that the old one is as it was
 //     written: must_match(). Otherwise a flipped bit would be digested again, and be right from
 //     then on. What has been changed unchecked is a std::logic_error at the commit.
-//   * rows of samples, profiles and fields are added to their digest: added();
+//   * rows of samples, profiles, fields and snapshots are added to their digest: added();
 //   * loans of a job that change are digested again: changed().
 //
 // Private to schema/.
@@ -114,12 +114,14 @@ class Digests {
                      long long rowid);
   Row& row(std::int64_t job_id);
   SQLite::Statement& rows_of(Part part);
+  const std::vector<Part>& parts();
   std::uint64_t of_table(const std::string& table);
 
   SQLite::Database& sqlite_;
   std::array<std::unique_ptr<DigestedTable>, part_count> tables_;
   std::array<std::unique_ptr<SQLite::Statement>, part_count> rows_;
   std::unique_ptr<SQLite::Statement> read_, write_;
+  std::vector<Part> parts_;
 
   // Of the transaction that is on.
   bool is_writing_ = false;

@@ -10,8 +10,19 @@
 namespace haff::schema {
 
 // What a job has in the store, by the table that holds it. Each has a digest (017-digests.sql).
-enum class Part { jobs, samples, profiles, fields, results, invariants, checkpoints, loans };
-inline constexpr std::size_t part_count = 8;
+// A new part comes last: a store of an older version has digests of those before it.
+enum class Part {
+  jobs,
+  samples,
+  profiles,
+  fields,
+  results,
+  invariants,
+  checkpoints,
+  loans,
+  snapshots
+};
+inline constexpr std::size_t part_count = 9;
 const char* name(Part part);  // of the table
 
 // What the digests say of a job.

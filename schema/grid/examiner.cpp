@@ -241,6 +241,24 @@ class Examiner {
     for (const Placed& item : items(*moments)) belongs(item);
   }
 
+  // Moments lie within the run, and collisions lie between them.
+  void has_moments(const Source& source, const std::vector<double>& tau_max,
+                   const std::string& key) const {
+    const auto placed = source.find(key);
+    if (!placed) return;
+    const double longest = *std::max_element(tau_max.begin(), tau_max.end());
+    const bool has_axes = placed->value.is_object() &&
+                          (placed->value.contains("tau") || placed->value.contains("time"));
+    if (!has_axes) return on_axis_of_tau(source, *placed, longest);
+    for (const char* of_tau_alone : {"log", "from"})
+      if (placed->value.contains(of_tau_alone))
+        throw fault(file_, placed->where / of_tau_alone,
+                    "stands beside \"tau\" or \"time\"; expected it within one of them, as in "
+                    "{\"tau\": {\"log\": 20}}");
+    if (placed->value.contains("tau"))
+      on_axis_of_tau(source, {placed->where / "tau", placed->value["tau"]}, longest);
+  }
+
   // A target is something every run measures, and its pilot runs are enough to judge from.
   void reachable(const Source& source, const std::vector<double>& tau_max) const {
     const auto target = source.find("target");
@@ -285,6 +303,36 @@ class Examiner {
   }
 
  private:
+  void on_axis_of_tau(const Source& source, const Placed& moments, double longest) const {
+    const auto within_run = [&](const Placed& item) {
+      if (item.value.get<double>() > longest)
+        throw fault(
+            file_, item.where,
+            shown(item.value) + " is beyond the run; expected at most tau_max = " + text(longest));
+    };
+    if (moments.value.is_object()) {
+      if (!moments.value.contains("log"))
+        throw fault(file_, moments.where,
+                    "has no \"log\"; expected so many moments a decade, as in {\"log\": 20}");
+      if (moments.value.contains("from"))
+        within_run({moments.where / "from", moments.value["from"]});
+      return;
+    }
+    auto listed = items(moments);
+    for (const Placed& item : listed) within_run(item);
+    std::ranges::sort(listed, {}, [](const Placed& item) { return item.value.get<double>(); });
+    for (const double N : source.list<double>("N"))
+      for (std::size_t k = 1; k < listed.size(); ++k) {
+        const double before = listed[k - 1].value.get<double>(),
+                     now = listed[k].value.get<double>();
+        if (std::ceil(now * N / 2) == std::ceil(before * N / 2))
+          throw fault(file_, listed[k].where,
+                      text(now) + " is the same collision of " + text(N) + " particles as " +
+                          text(before) + "; expected 2/N = " + rounded(2 / N) +
+                          " between two moments");
+      }
+  }
+
   // gamma_ratio and tau_c compare with Haff's law.
   void cools_by_haff(const Source& source, const Pointer& where) const {
     const auto e = source.e();
@@ -501,6 +549,8 @@ ExaminedGrid examine(const Json& document, const std::string& file, const Memory
     examiner.sampled(source, tau_max);
     examiner.can_count_collisions(source, tau_max);
     examiner.in_step(source, tau_max);
+    for (const char* key : {"sample_at", "snapshots_at"})
+      examiner.has_moments(source, tau_max, key);
     examiner.reachable(source, tau_max);
     grid.tau_max.push_back(std::move(tau_max));
   }

@@ -55,6 +55,29 @@ std::vector<Target> targets(const Source& source) {
   return all;
 }
 
+Moments moments(const Json& value) {
+  Moments moments;
+  if (value.is_object()) {
+    moments.per_decade = static_cast<int>(value["log"].get<double>());
+    moments.from = value.value("from", usual_first_moment);
+    return moments;
+  }
+  if (value.is_number()) return {.listed = {value.get<double>() + 0.0}};
+  for (const Json& moment : value) moments.listed.push_back(moment.get<double>() + 0.0);
+  std::ranges::sort(moments.listed);
+  return moments;
+}
+
+Schedule schedule(const Source& source, const std::string& key) {
+  const auto placed = source.find(key);
+  if (!placed) return {};
+  const Json& value = placed->value;
+  const bool has_axes = value.is_object() && !value.contains("log");
+  if (!has_axes) return {.tau = moments(value), .time = {}};
+  return {.tau = value.contains("tau") ? moments(value["tau"]) : Moments{},
+          .time = value.contains("time") ? moments(value["time"]) : Moments{}};
+}
+
 std::vector<Effects> effects(const Placed& placed) {
   std::vector<Effects> all;
   for (Json& one : expanded(placed.value)) {
@@ -74,11 +97,13 @@ SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {
                .seeds = seeds(source["seeds"]),
                .tau_max = std::move(tau_max),
                .sample_every = source.list<double>("sample_every"),
+               .sample_at = schedule(source, "sample_at"),
                .equilibrate = source.list<double>("equilibrate"),
                .checkpoint_every = source["checkpoint_every"].value.get<double>(),
                .observables = source.observables(),
                .profiles_every = std::nullopt,
                .fields_at = {},
+               .snapshots_at = schedule(source, "snapshots_at"),
                .effects = effects(source["effects"]),
                .targets = targets(source)};
   // Kept where they decide what is measured: elsewhere two grids that differ in them are the same.

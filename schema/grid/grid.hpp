@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "schema/grid/effects.hpp"
+#include "schema/grid/moments.hpp"
 #include "schema/grid/target.hpp"
 
 namespace haff::schema {
@@ -33,13 +34,15 @@ struct SubGrid {
   std::vector<std::uint64_t> seeds;
   std::vector<double> tau_max;  // as long as e, or one: how far each is run [collisions/particle]
   std::vector<double> sample_every;
+  Schedule sample_at;
   std::vector<double> equilibrate;
   double checkpoint_every = 0;
   std::vector<std::string> observables;  // sorted
   std::optional<double> profiles_every;  // where an observable is a profile
   std::vector<double> fields_at;         // increasing; where fields are an observable
-  std::vector<Effects> effects;          // each as in Job::effects
-  std::vector<Target> targets;           // of each of its series; seeds are the pilot runs
+  Schedule snapshots_at;
+  std::vector<Effects> effects;  // each as in Job::effects
+  std::vector<Target> targets;   // of each of its series; seeds are the pilot runs
 };
 
 struct Grid {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "schema/grid/effects.hpp"
 #include "schema/grid/observables.hpp"
@@ -52,7 +54,23 @@ Job equilibration_of(const Job& cooling) {
   job.observables = {"laguerre", "temperature"};
   job.profiles_every = std::nullopt;
   job.fields_at.clear();
+  job.sample_at = {};
+  job.snapshots_at = {};
   return job;
+}
+
+Job unobserved(Job job) {
+  job.observables.clear();
+  job.profiles_every = std::nullopt;
+  job.fields_at.clear();
+  job.snapshots_at = {};
+  return job;
+}
+
+Job unsampled(Job job) {
+  job.sample_every = 1;
+  job.sample_at = {};
+  return unobserved(std::move(job));
 }
 
 std::string identity(const Job& job) {
@@ -66,8 +84,11 @@ std::string identity(const Job& job) {
          R"(,"observables":)" + observables_text(job.observables) +  //
          R"(,"particles":)" + std::to_string(job.particles) +        //
          (job.profiles_every ? R"(,"profiles_every":)" + real(*job.profiles_every) : "") +
+         (job.sample_at.empty() ? "" : R"(,"sample_at":)" + schedule_text(job.sample_at)) +
          R"(,"sample_every":)" + real(job.sample_every) +  //
-         R"(,"seed":)" + std::to_string(job.seed) + "}";
+         R"(,"seed":)" + std::to_string(job.seed) +        //
+         (job.snapshots_at.empty() ? "" : R"(,"snapshots_at":)" + schedule_text(job.snapshots_at)) +
+         "}";
 }
 
 bool cools_by_haff(const Job& job) {
@@ -77,6 +98,10 @@ bool cools_by_haff(const Job& job) {
 std::string series_identity(Job job) {
   job.seed = 0;
   return identity(job);
+}
+
+bool is_at_interval(const Job& job, double tau) {
+  return job.sample_at.tau.empty() || tau == std::round(tau / job.sample_every) * job.sample_every;
 }
 
 bool is_profile(std::string_view observable) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "schema/grid/effects.hpp"
+#include "schema/grid/moments.hpp"
 
 namespace haff::schema {
 
@@ -58,10 +59,12 @@ struct Job {
   std::uint64_t seed = 0;       // realization, 0 ... 2^53 - 1
   double equilibrate = 50;      // elastic collisions per particle before cooling
   double sample_every = 1;      // samples are taken at tau = k sample_every
+  Schedule sample_at = {};      // and at these moments
   Effects effects = {};
   std::vector<std::string> observables = {};  // listed in grid.schema.json; in any order
   std::optional<double> profiles_every = {};  // profiles at tau = k profiles_every; empty: none
   std::vector<double> fields_at = {};         // fields at these tau, increasing
+  Schedule snapshots_at = {};                 // the whole gas at these moments
 
   bool operator==(const Job&) const = default;
 };
@@ -76,8 +79,8 @@ inline constexpr double equilibration_sample_every = 10;
 Job equilibration_of(const Job& cooling);
 
 // The text that names a job: its physics as JSON, keys sorted, no spaces, reals in the shortest
-// form that reads back as the same double, observables sorted; profiles_every and fields_at are
-// there only in a job that takes profiles or fields. The text itself is the identity,
+// form that reads back as the same double, observables sorted; profiles_every, fields_at, sample_at
+// and snapshots_at are there only in a job that has them. The text itself is the identity,
 // not a hash of it: two jobs are the same exactly if their texts are equal, a person can read
 // what differs, and the 200 bytes it takes are nothing beside a job's samples.
 std::string identity(const Job& job);
@@ -86,8 +89,18 @@ std::string identity(const Job& job);
 // spheres lose energy by a constant e, and gain none.
 bool cools_by_haff(const Job& job);
 
+// The job without what it observes: neither observables nor profiles, fields or snapshots. Jobs
+// that have this in common sample the same gas at the same moments.
+Job unobserved(Job job);
+
+// Nor when it samples: jobs that have this in common compute the same gas.
+Job unsampled(Job job);
+
 // What the realizations of one series have in common: the identity with seed 0.
 std::string series_identity(Job job);
+
+// Whether the sample at tau is one of those at equal intervals, not one of sample_at alone.
+bool is_at_interval(const Job& job, double tau);
 
 // Whether an observable is taken every profiles_every, at fields_at, or else with every sample.
 bool is_profile(std::string_view observable);

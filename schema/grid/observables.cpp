@@ -28,6 +28,16 @@ constexpr std::array all_observables{
 };
 
 constexpr std::array all_curves{
+    Curve{"tau_at_time", "temperature", "t", "collisions per particle until t (sample_at)"},
+    Curve{"temperature_at_time", "temperature", "t", "temperature at t [E(0)]"},
+    Curve{"a2_at_time", "laguerre", "t", "a2 at t"},
+    Curve{"a3_at_time", "laguerre", "t", "a3 at t"},
+    Curve{"a4_at_time", "laguerre", "t", "a4 at t"},
+    Curve{"a5_at_time", "laguerre", "t", "a5 at t"},
+    Curve{"a6_at_time", "laguerre", "t", "a6 at t"},
+    Curve{"rotational_temperature_at_time", "temperature", "t", "of rotation at t (roughness)"},
+    Curve{"temperature_1_at_time", "temperature", "t", "of species 1 at t (mixture)"},
+    Curve{"temperature_2_at_time", "temperature", "t", "of species 2 at t"},
     Curve{"rho", "distribution", "c", "velocity distribution, a Gaussian gas has exp(-c^2)"},
     Curve{"tail", "tail", "c", "the same beyond c = 3, in bins of equal ratio"},
     Curve{"tail_exponent", "tail", "c", "alpha of exp(-A c^alpha) beyond this c"},

@@ -53,7 +53,8 @@ const Json* rule_within(const Json& rule, const std::string& token) {
   const Json& here = resolved(rule);
   if (here.contains("properties") && here["properties"].contains(token))
     return &resolved(here["properties"][token]);
-  if (here.contains("items")) return &resolved(here["items"]);
+  const bool is_place = token.find_first_not_of("0123456789") == std::string::npos;
+  if (here.contains("items") && is_place) return &resolved(here["items"]);
   if (here.contains("additionalProperties") && here["additionalProperties"].is_object())
     return &resolved(here["additionalProperties"]);
   if (here.contains("anyOf"))

@@ -15,8 +15,8 @@ namespace haff::schema {
 // One row of samples; a value that does not exist (first sample, observable not asked for) is
 // empty, and NULL in the store. A value that is not finite is refused.
 struct Sample {
-  double tau = 0;                             // k sample_every [collisions per particle]
-  double time = 0;                            // true time [sigma sqrt(m/E(0))]
+  double tau = 0;   // k sample_every, or of sample_at [collisions per particle]
+  double time = 0;  // true time [sigma sqrt(m/E(0))]
   std::optional<double> temperature = {};     // T = (m/d) <v^2> [E(0)]
   std::optional<double> gamma_ratio = {};     // gamma/gamma_0, middle of the interval before tau
   std::optional<double> collision_rate = {};  // omega [per particle and time], same interval
@@ -83,6 +83,21 @@ struct Checkpoint {
   double tau = 0;
   std::int64_t collisions = 0;
   std::vector<std::byte> state = {};
+};
+
+// The whole gas at one moment of snapshots_at, encoded like a checkpoint. No job goes on from it.
+struct Snapshot {
+  double tau = 0;   // that of the moment, or 2 C / N of a moment in time
+  double time = 0;  // of the gas [sigma sqrt(m/E(0))]
+  std::int64_t collisions = 0;
+  std::vector<std::byte> state = {};
+};
+
+struct SnapshotInfo {
+  double tau = 0;
+  double time = 0;
+  std::int64_t collisions = 0;
+  std::int64_t bytes = 0;
 };
 
 // How far a job is.

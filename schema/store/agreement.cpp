@@ -96,10 +96,23 @@ void must_agree(Database& database, std::int64_t job_id, const Sample& again) {
         job_id, again.tau, came_out_different, found->column, found->first, found->second));
 }
 
+void must_agree(Database& database, std::int64_t job_id, const Snapshot& again, std::uint64_t sum) {
+  Prepared row(database, "SELECT checksum FROM snapshots WHERE job_id = ? AND time = ?");
+  row.bind(1, job_id);
+  row.bind(2, again.time);
+  row.executeStep();
+  if (row.getColumn(0).getInt64() != static_cast<std::int64_t>(sum))
+    throw Damage(fmt::format(
+        "job {}: the snapshot at tau = {} {}; one of the two computations was disturbed, or the "
+        "program that made the first has changed",
+        job_id, again.tau, came_out_different));
+}
+
 // Jobs of one gas start from one equilibration, so that they are found by its index, and few.
 void must_agree_with_same_physics(Database& database, std::int64_t job_id) {
   Prepared others(database, R"(
-    SELECT other.job_id, other.sample_every = own.sample_every
+    SELECT other.job_id,
+           other.sample_every = own.sample_every AND other.sample_at IS own.sample_at
     FROM jobs AS own JOIN jobs AS other ON other.equilibration_id = own.equilibration_id
     WHERE own.job_id = ? AND other.job_id <> own.job_id AND other.status = 'done'
           AND other.e IS own.e AND other.effects = own.effects

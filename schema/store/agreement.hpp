@@ -17,6 +17,9 @@ namespace haff::schema {
 // may differ between two machines.
 void must_agree(Database& database, std::int64_t job_id, const Sample& again);
 
+// The same of a snapshot at the same time, by the checksum of its bytes.
+void must_agree(Database& database, std::int64_t job_id, const Snapshot& again, std::uint64_t sum);
+
 // Holds all samples of a job against those of finished jobs with the same physics, wherever they
 // were taken at the same tau. Throws Damage, which names the other job too.
 void must_agree_with_same_physics(Database& database, std::int64_t job_id);

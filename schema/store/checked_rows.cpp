@@ -40,6 +40,11 @@ std::vector<double> fields_at(const SQLite::Statement& row) {
   return canonical(row, "fields_at", fields_at_in, fields_at_text);
 }
 
+Schedule schedule(const SQLite::Statement& row, const char* column) {
+  if (row.isColumnNull(column)) return {};
+  return canonical(row, column, schedule_in, schedule_text);
+}
+
 // A kind or a status by its name.
 template <class Named>
 auto named(const SQLite::Statement& row, const char* column, Named&& known) {
@@ -68,10 +73,12 @@ Job job_of(const SQLite::Statement& row) {
           .seed = static_cast<std::uint64_t>(integer(row, "seed", 0, largest_whole)),
           .equilibrate = positive(row, "equilibrate"),
           .sample_every = positive(row, "sample_every"),
+          .sample_at = schedule(row, "sample_at"),
           .effects = effects(row),
           .observables = canonical(row, "observables", observables_in, observables_text),
           .profiles_every = optional(row, "profiles_every", positive),
-          .fields_at = fields_at(row)};
+          .fields_at = fields_at(row),
+          .snapshots_at = schedule(row, "snapshots_at")};
   if (job.e && !(*job.e >= 0 && *job.e <= 1))
     throw BadValue("the column e holds a number that is not between 0 and 1");
   return job;
@@ -124,6 +131,13 @@ Sample sample(const SQLite::Statement& row) {
 CheckpointInfo checkpoint_info(const SQLite::Statement& row) {
   return {.job_id = integer(row, "job_id"),
           .tau = not_negative(row, "tau"),
+          .collisions = integer(row, "collisions", 0),
+          .bytes = integer(row, "bytes", 0)};
+}
+
+SnapshotInfo snapshot_info(const SQLite::Statement& row) {
+  return {.tau = not_negative(row, "tau"),
+          .time = not_negative(row, "time"),
           .collisions = integer(row, "collisions", 0),
           .bytes = integer(row, "bytes", 0)};
 }

@@ -21,6 +21,7 @@ Owner owner(const SQLite::Statement& row);
 Progress progress_of(const SQLite::Statement& row);
 Sample sample(const SQLite::Statement& row);
 CheckpointInfo checkpoint_info(const SQLite::Statement& row);
+SnapshotInfo snapshot_info(const SQLite::Statement& row);
 // Of a row of fields with the column d of its job: as many values as its cells hold.
 Field field_of(const SQLite::Statement& row);
 std::vector<std::uint64_t> pilots(const SQLite::Statement& row);

@@ -111,6 +111,41 @@ void insert(Database& database, const Lease& lease, const std::vector<Field>& fi
   }
 }
 
+// Cut into BLOBs: `insert` has places for the position and the bytes from `first` on.
+void insert_chunks(SQLite::Statement& insert, int first, std::span<const std::byte> state) {
+  for (std::size_t begin = 0; begin < state.size(); begin += chunk_bytes) {
+    const auto chunk = state.subspan(begin, std::min(chunk_bytes, state.size() - begin));
+    insert.reset();
+    insert.bind(first, static_cast<std::int64_t>(begin / chunk_bytes));
+    insert.bindNoCopy(first + 1, chunk.data(), static_cast<int>(chunk.size()));
+    insert.exec();
+  }
+}
+
+// A snapshot that is there already must be this one, in every bit.
+void insert(Database& database, const Lease& lease, const Snapshot& snapshot, std::uint64_t sum) {
+  const DigestedTable& table = database.digests().table(Part::snapshots);
+  Prepared header(database,
+                  "INSERT INTO snapshots (job_id, time, tau, collisions, bytes, checksum) "
+                  "VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING RETURNING " +
+                      table.columns());
+  header.bind(1, lease.job_id);
+  header.bind(2, snapshot.time);
+  header.bind(3, snapshot.tau);
+  header.bind(4, snapshot.collisions);
+  header.bind(5, static_cast<std::int64_t>(snapshot.state.size()));
+  header.bind(6, static_cast<std::int64_t>(sum));
+  if (!header.executeStep()) return must_agree(database, lease.job_id, snapshot, sum);
+  database.digests().added(lease.job_id, Part::snapshots, table.digest(header));
+  header.reset();
+
+  Prepared insert(
+      database, "INSERT INTO snapshot_chunks (job_id, time, position, bytes) VALUES (?, ?, ?, ?)");
+  insert.bind(1, lease.job_id);
+  insert.bind(2, snapshot.time);
+  insert_chunks(insert, 3, snapshot.state);
+}
+
 void replace(Database& database, const Lease& lease, const Checkpoint& checkpoint,
              std::uint64_t sum) {
   Prepared drop(database, "DELETE FROM checkpoint_chunks WHERE job_id = ?");
@@ -131,15 +166,8 @@ void replace(Database& database, const Lease& lease, const Checkpoint& checkpoin
 
   Prepared insert(database,
                   "INSERT INTO checkpoint_chunks (job_id, position, bytes) VALUES (?, ?, ?)");
-  const std::span<const std::byte> state(checkpoint.state);
-  for (std::size_t begin = 0; begin < state.size(); begin += chunk_bytes) {
-    const auto chunk = state.subspan(begin, std::min(chunk_bytes, state.size() - begin));
-    insert.reset();
-    insert.bind(1, lease.job_id);
-    insert.bind(2, static_cast<std::int64_t>(begin / chunk_bytes));
-    insert.bindNoCopy(3, chunk.data(), static_cast<int>(chunk.size()));
-    insert.exec();
-  }
+  insert.bind(1, lease.job_id);
+  insert_chunks(insert, 2, checkpoint.state);
 
   Prepared progress(database, "UPDATE jobs SET attempts = 0, starts_over = 0 WHERE job_id = ?");
   progress.bind(1, lease.job_id);
@@ -169,12 +197,14 @@ void note_physics(Database& database, const Lease& lease, int physics_version) {
   statement.exec();
 }
 
-// A commit, with its checksum already computed, so that no process waits for the write lock
+// A commit, with its checksums already computed, so that no process waits for the write lock
 // meanwhile.
 class Entry {
  public:
   Entry(const Lease& lease, const Commit& commit) : lease_(lease), commit_(commit) {
     if (commit.checkpoint) sum_ = checksum(commit.checkpoint->state);
+    sums_.reserve(commit.snapshots.size());
+    for (const Snapshot& snapshot : commit.snapshots) sums_.push_back(checksum(snapshot.state));
   }
 
   void write(Database& database) const {
@@ -182,6 +212,8 @@ class Entry {
     insert(database, lease_, commit_.samples);
     insert(database, lease_, commit_.profiles);
     insert(database, lease_, commit_.fields);
+    for (std::size_t k = 0; k < sums_.size(); ++k)
+      insert(database, lease_, commit_.snapshots[k], sums_[k]);
     if (commit_.checkpoint) replace(database, lease_, *commit_.checkpoint, sum_);
     if (commit_.invariants) replace(database, lease_, *commit_.invariants);
     if (commit_.physics_version) note_physics(database, lease_, *commit_.physics_version);
@@ -191,7 +223,8 @@ class Entry {
  private:
   const Lease& lease_;
   const Commit& commit_;
-  std::uint64_t sum_ = 0;
+  std::uint64_t sum_ = 0;            // of the state
+  std::vector<std::uint64_t> sums_;  // of the snapshots
 };
 
 void replace(Database& database, const Lease& lease, const Results& results) {

@@ -18,7 +18,7 @@ namespace haff::schema {
 namespace {
 
 // Tables whose rows have digests that grow with each row.
-constexpr std::array grown{Part::samples, Part::profiles, Part::fields};
+constexpr std::array grown{Part::samples, Part::profiles, Part::fields, Part::snapshots};
 
 std::optional<Part> grown_part(const std::string& table) {
   for (const Part part : grown)
@@ -247,6 +247,11 @@ void drop_rows(const RowsOfJob& ours, const std::string& table) {
   SQLite::Statement statement(ours.sqlite(), fmt::format("DELETE FROM {} WHERE job_id = ?", table));
   statement.bind(1, ours.job_id);
   statement.exec();
+}
+
+const char* chunks_of(Part part) {
+  if (part == Part::checkpoints) return "checkpoint_chunks";
+  return part == Part::snapshots ? "snapshot_chunks" : nullptr;
 }
 
 void drop_differing_rows(const RowsOfJob& ours, const RowsOfJob& theirs, Part part,

@@ -52,6 +52,9 @@ std::int64_t add_and_compare_rows(const RowsOfJob& ours, const RowsOfJob& theirs
 
 void drop_rows(const RowsOfJob& ours, const std::string& table);
 
+// The table that holds the bytes of the rows of this part; null if they have none.
+const char* chunks_of(Part part);
+
 // Drops those of our rows that differ from theirs, or that they lack. What differs in last digits
 // alone may be another machine's.
 enum class LastDigits { may_differ, must_agree };

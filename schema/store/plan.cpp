@@ -32,12 +32,12 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
   SQLite::Statement statement(
       sqlite,
       "INSERT INTO jobs (identity, kind, d, e, n, particles, seed, equilibrate, "
-      "sample_every, effects, observables, profiles_every, fields_at, tau_max, "
-      "checkpoint_every, "
+      "sample_every, sample_at, effects, observables, profiles_every, fields_at, snapshots_at, "
+      "tau_max, checkpoint_every, "
       "equilibration_id, expected_cpu_seconds, created) "
       "VALUES (:identity, :kind, :d, :e, :n, :particles, :seed, :equilibrate, "
-      ":sample_every, :effects, :observables, :profiles_every, :fields_at, :tau_max, "
-      ":checkpoint_every, "
+      ":sample_every, :sample_at, :effects, :observables, :profiles_every, :fields_at, "
+      ":snapshots_at, :tau_max, :checkpoint_every, "
       ":equilibration_id, :expected_cpu_seconds, " +
           now + ")");
   const Job& job = planned.job;
@@ -54,6 +54,8 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
   statement.bind(":observables", observables_text(job.observables));
   bind_optional(statement, ":profiles_every", job.profiles_every);
   if (!job.fields_at.empty()) statement.bind(":fields_at", fields_at_text(job.fields_at));
+  if (!job.sample_at.empty()) statement.bind(":sample_at", schedule_text(job.sample_at));
+  if (!job.snapshots_at.empty()) statement.bind(":snapshots_at", schedule_text(job.snapshots_at));
   statement.bind(":tau_max", planned.tau_max);
   statement.bind(":checkpoint_every", planned.checkpoint_every);
   if (const auto id = equilibration_id(sqlite, job)) statement.bind(":equilibration_id", *id);

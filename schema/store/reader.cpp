@@ -27,6 +27,49 @@ JobRow row_of_job(const SQLite::Statement& row) {
   }
 }
 
+// A state in pieces: those of a job, or of one of its snapshots.
+struct Chunks {
+  const char* table = nullptr;
+  std::int64_t job_id = 0;
+  std::optional<double> time = {};
+};
+
+// The sizes are checked before any chunk is read.
+std::vector<std::byte> bytes_of(Database& database, const Chunks& which, std::int64_t size,
+                                std::int64_t expected_checksum, const std::string& what) {
+  const auto damaged = [&](const std::string& why) {
+    return Damage(database.path().string() + ": " + what + " is damaged: " + why);
+  };
+  const std::string where = std::string(" FROM ") + which.table + " WHERE job_id = ?" +
+                            (which.time ? " AND time = ?" : "");
+  const auto bind_to = [&](SQLite::Statement& statement) {
+    statement.bind(1, which.job_id);
+    if (which.time) statement.bind(2, *which.time);
+  };
+  Prepared total(database,
+                 "SELECT total(length(bytes)) AS size" + where + " AND typeof(bytes) = 'blob'");
+  bind_to(total);
+  total.executeStep();
+  if (const double found = real(total, "size"); found != static_cast<double>(size))
+    throw damaged("it holds " + std::to_string(static_cast<std::int64_t>(found)) + " bytes of " +
+                  std::to_string(size));
+
+  std::vector<std::byte> bytes;
+  bytes.reserve(static_cast<std::size_t>(size));  // never two halves of it
+  Prepared chunks(database, "SELECT position, bytes" + where + " ORDER BY position");
+  bind_to(chunks);
+  for (std::int64_t position = 0; chunks.executeStep(); ++position) {
+    if (chunks.getColumn(0).getInt64() != position)
+      throw damaged("chunk " + std::to_string(position) + " is missing");
+    const auto chunk = chunks.getColumn(1);
+    const auto* begin = static_cast<const std::byte*>(chunk.getBlob());
+    bytes.insert(bytes.end(), begin, begin + chunk.getBytes());
+  }
+  if (static_cast<std::int64_t>(checksum(bytes)) != expected_checksum)
+    throw damaged("its bytes do not add up to its checksum");
+  return bytes;
+}
+
 }  // namespace
 
 int newest_version() {
@@ -107,7 +150,7 @@ std::vector<JobRow> Reader::jobs() const {
     SQLite::Statement statement(database_->sqlite(), R"(
       SELECT * FROM jobs
       ORDER BY kind DESC, d, n, particles, e, equilibrate, sample_every, effects,
-               observables, profiles_every, fields_at, seed)");
+               observables, profiles_every, fields_at, sample_at, snapshots_at, seed)");
     std::vector<JobRow> rows;
     while (statement.executeStep()) rows.push_back(row_of_job(statement));
     return rows;
@@ -365,41 +408,48 @@ std::vector<CheckpointInfo> Reader::checkpoints() const {
 }
 
 std::optional<Checkpoint> Reader::checkpoint(std::int64_t job_id) const {
-  const auto damaged = [&](const std::string& what) {
-    return Damage(path().string() + ": the checkpoint of job " + std::to_string(job_id) +
-                  " is damaged: " + what);
-  };
   return database_->snapshot([&]() -> std::optional<Checkpoint> {
     Prepared header(*database_, "SELECT * FROM checkpoints WHERE job_id = ?");
     header.bind(1, job_id);
     if (!header.executeStep()) return std::nullopt;
     must_match(job_id, Part::checkpoints);
     const CheckpointInfo info = checkpoint_info(header);
-    Prepared total(*database_,
-                   "SELECT total(length(bytes)) AS size FROM checkpoint_chunks "
-                   "WHERE job_id = ? AND typeof(bytes) = 'blob'");
-    total.bind(1, job_id);
-    total.executeStep();
-    if (const double size = real(total, "size"); size != static_cast<double>(info.bytes))
-      throw damaged("it holds " + std::to_string(static_cast<std::int64_t>(size)) + " bytes of " +
-                    std::to_string(info.bytes));
+    return Checkpoint{
+        .tau = info.tau,
+        .collisions = info.collisions,
+        .state = bytes_of(*database_, {.table = "checkpoint_chunks", .job_id = job_id}, info.bytes,
+                          integer(header, "checksum"),
+                          "the checkpoint of job " + std::to_string(job_id))};
+  });
+}
 
-    Checkpoint checkpoint{.tau = info.tau, .collisions = info.collisions, .state = {}};
-    checkpoint.state.reserve(static_cast<std::size_t>(info.bytes));  // never two halves of it
-    Prepared chunks(
-        *database_,
-        "SELECT position, bytes FROM checkpoint_chunks WHERE job_id = ? ORDER BY position");
-    chunks.bind(1, job_id);
-    for (std::int64_t position = 0; chunks.executeStep(); ++position) {
-      if (chunks.getColumn(0).getInt64() != position)
-        throw damaged("chunk " + std::to_string(position) + " is missing");
-      const auto chunk = chunks.getColumn(1);
-      const auto* bytes = static_cast<const std::byte*>(chunk.getBlob());
-      checkpoint.state.insert(checkpoint.state.end(), bytes, bytes + chunk.getBytes());
-    }
-    if (static_cast<std::int64_t>(checksum(checkpoint.state)) != integer(header, "checksum"))
-      throw damaged("its bytes do not add up to its checksum");
-    return checkpoint;
+std::vector<SnapshotInfo> Reader::snapshots(std::int64_t job_id) const {
+  return database_->snapshot([&] {
+    must_match(job_id, Part::snapshots);
+    Prepared row(*database_, "SELECT * FROM snapshots WHERE job_id = ? ORDER BY time");
+    row.bind(1, job_id);
+    std::vector<SnapshotInfo> infos;
+    while (row.executeStep()) infos.push_back(snapshot_info(row));
+    return infos;
+  });
+}
+
+std::optional<Snapshot> Reader::snapshot(std::int64_t job_id, double time) const {
+  return database_->snapshot([&]() -> std::optional<Snapshot> {
+    must_match(job_id, Part::snapshots);
+    Prepared header(*database_, "SELECT * FROM snapshots WHERE job_id = ? AND time = ?");
+    header.bind(1, job_id);
+    header.bind(2, time);
+    if (!header.executeStep()) return std::nullopt;
+    const SnapshotInfo info = snapshot_info(header);
+    return Snapshot{
+        .tau = info.tau,
+        .time = info.time,
+        .collisions = info.collisions,
+        .state = bytes_of(*database_, {.table = "snapshot_chunks", .job_id = job_id, .time = time},
+                          info.bytes, integer(header, "checksum"),
+                          "the snapshot of job " + std::to_string(job_id) +
+                              " at tau = " + std::to_string(info.tau))};
   });
 }
 

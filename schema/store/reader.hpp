@@ -105,7 +105,10 @@ class Reader {
   // A job's profiles of this name, by tau. Averages over realizations: the view mean_profiles.
   std::vector<Profile> profiles(std::int64_t job_id, const std::string& name) const;
   std::optional<Field> field(std::int64_t job_id, const std::string& name, double tau) const;
-  std::vector<FieldName> fields(std::int64_t job_id) const;  // those the job has
+  std::vector<FieldName> fields(std::int64_t job_id) const;        // those the job has
+  std::vector<SnapshotInfo> snapshots(std::int64_t job_id) const;  // those the job has, by time
+  // The snapshot at exactly this time. Throws Damage as checkpoint() does.
+  std::optional<Snapshot> snapshot(std::int64_t job_id, double time) const;
   std::optional<Results> results(std::int64_t job_id) const;
   std::optional<Invariants> invariants(std::int64_t job_id) const;
 

@@ -25,11 +25,11 @@ std::int64_t Store::replace_rows(std::int64_t job_id, Part part, const Reader& o
     for (const Difference& difference : schema::differences(ours, theirs, part))
       if (last_digits == LastDigits::must_agree || !difference.is_in_last_digits)
         rows.insert(difference.row);
-    const bool is_state = part == Part::checkpoints;
-    if (is_state) drop_rows(ours, "checkpoint_chunks");
+    const char* chunks = chunks_of(part);
+    if (chunks != nullptr) drop_rows(ours, chunks);
     drop_differing_rows(ours, theirs, part, last_digits);
     add_rows(ours, theirs, name(part));
-    if (is_state) add_rows(ours, theirs, "checkpoint_chunks");
+    if (chunks != nullptr) add_rows(ours, theirs, chunks);
     database().digests().changed(job_id, part);
     return static_cast<std::int64_t>(rows.size());
   });
@@ -51,18 +51,25 @@ void Store::digest_table_again(const std::string& table) {
 
 std::int64_t Store::drop_rows_after(std::int64_t job_id, double tau) {
   return database().transaction([&] {
-    const auto drop = [&](Part part) {
-      SQLite::Statement statement(database().sqlite(), std::string("DELETE FROM ") + name(part) +
-                                                           " WHERE job_id = ? AND tau > ?");
+    const auto remove = [&](const std::string& sql) {
+      SQLite::Statement statement(database().sqlite(), "DELETE FROM " + sql);
       statement.bind(1, job_id);
       statement.bind(2, tau);
-      const std::int64_t dropped = statement.exec();
+      return static_cast<std::int64_t>(statement.exec());
+    };
+    const auto drop = [&](Part part) {
+      const std::int64_t dropped =
+          remove(std::string(name(part)) + " WHERE job_id = ? AND tau > ?");
       database().digests().changed(job_id, part);
       return dropped;
     };
     const std::int64_t samples = drop(Part::samples);
     drop(Part::profiles);
     drop(Part::fields);
+    remove(
+        "snapshot_chunks WHERE job_id = ?1 AND time IN "
+        "(SELECT time FROM snapshots WHERE job_id = ?1 AND tau > ?2)");
+    drop(Part::snapshots);
     drop_rows({database(), job_id}, name(Part::results));
     return samples;
   });

@@ -242,8 +242,9 @@ void execute(SQLite::Database& sqlite, const std::string& sql, std::int64_t job_
 }
 
 void remove(Database& database, std::int64_t job_id) {
-  for (const char* table : {"loans", "checkpoint_chunks", "checkpoints", "results", "invariants",
-                            "fields", "profiles", "samples", "digests", "jobs"})
+  for (const char* table :
+       {"loans", "checkpoint_chunks", "checkpoints", "snapshot_chunks", "snapshots", "results",
+        "invariants", "fields", "profiles", "samples", "digests", "jobs"})
     execute(database.sqlite(), fmt::format("DELETE FROM {} WHERE job_id = ?", table), job_id);
   database.digests().removed(job_id);
 }

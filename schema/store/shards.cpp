@@ -24,10 +24,11 @@ namespace {
 
 // Tables whose rows are written once and never change, and those that hold the newest state of a
 // job. All have a column job_id.
-constexpr std::array written_once{Part::samples, Part::profiles, Part::fields};
+constexpr std::array written_once{Part::samples, Part::profiles, Part::fields, Part::snapshots};
 constexpr std::array newest_state{"checkpoints", "checkpoint_chunks", "invariants", "results"};
-constexpr std::array all_parts{Part::jobs,    Part::samples,    Part::profiles,    Part::fields,
-                               Part::results, Part::invariants, Part::checkpoints, Part::loans};
+constexpr std::array all_parts{Part::jobs,        Part::samples, Part::profiles,
+                               Part::fields,      Part::results, Part::invariants,
+                               Part::checkpoints, Part::loans,   Part::snapshots};
 
 // Columns of jobs that belong to this store, not to the job.
 const std::set<std::string> of_this_store{"job_id",        "equilibration_id", "status",
@@ -280,6 +281,7 @@ Arrival Store::take_over(const Reader& other, std::int64_t job_id, const std::st
       Arrival arrival;
       for (const Part part : written_once) {
         arrival.rows += add_and_compare_rows(ours, theirs, part);
+        if (const char* chunks = chunks_of(part)) add_rows(ours, theirs, chunks);
         // Rows without a digest there get none here.
         if (!other.database().digests().stored(job_id, part)) digests.forget(our_id, part);
       }

@@ -72,6 +72,7 @@ struct Commit {
   std::vector<Sample> samples = {};
   std::vector<Profile> profiles = {};
   std::vector<Field> fields = {};
+  std::vector<Snapshot> snapshots = {};
   std::optional<Checkpoint> checkpoint = {};  // replaces the job's older one
   std::optional<Invariants> invariants = {};  // the same
   std::optional<int> physics_version = {};    // of the engine that computed all this

@@ -156,6 +156,10 @@ std::string rows(const Folder& folder) {
              "SELECT identity, name, fields.tau, cells, components, box, hex(data) "
              "FROM fields JOIN jobs USING (job_id) ORDER BY identity, name, fields.tau") +
          text(
+             "SELECT identity, time, snapshots.tau, snapshots.collisions, position, "
+             "hex(snapshot_chunks.bytes) FROM snapshots JOIN snapshot_chunks USING (job_id, time) "
+             "JOIN jobs USING (job_id) ORDER BY identity, time, position") +
+         text(
              "SELECT identity, results.* FROM jobs JOIN (SELECT job_id, tau_c, time_c FROM "
              "results) "
              "AS results USING (job_id) ORDER BY identity");

@@ -63,8 +63,8 @@ Outcome shell(const Folder& folder, const std::string& script);
 bool is_alive(pid_t process);
 void sleep_for(std::chrono::milliseconds time);
 
-// Every row of samples, profiles, fields and results with the physics of its job, reals in
-// hexadecimal: equal texts are equal bits.
+// Every row of samples, profiles, fields, snapshots and results with the physics of its job, reals
+// in hexadecimal: equal texts are equal bits.
 std::string rows(const Folder& folder);
 
 // One number that a query gives.

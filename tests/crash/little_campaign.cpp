@@ -17,7 +17,9 @@ namespace haff::tests {
 std::string grid(double tau_max, int seeds) {
   return fmt::format(R"({{
   "n": 0.2, "N": 108, "tau_max": {}, "equilibrate": 10, "seeds": {}, "grids": [
-  {{"e": 0.8, "profiles_every": 10, "fields_at": [20], "observables": ["temperature", "laguerre",
+  {{"e": 0.8, "profiles_every": 10, "fields_at": [20],
+    "sample_at": {{"tau": [0.5], "time": [2, 9]}}, "snapshots_at": {{"tau": [5, 15], "time": [3]}},
+    "observables": ["temperature", "laguerre",
     "distribution", "tail", "correlations", "structure", "pair_distribution", "energy_spectrum",
     "clusters", "cluster_sizes", "collision_statistics", "msd", "vacf@10", "fields"]}},
   {{"e": 0.9, "effects": [
@@ -63,6 +65,9 @@ std::string rows(const std::filesystem::path& folder) {
         "jobs USING (job_id) ORDER BY identity, name, profiles.tau, x",
         "SELECT identity, name, quote(fields.tau), hex(data) FROM fields JOIN jobs USING (job_id) "
         "ORDER BY identity, name, fields.tau",
+        "SELECT identity, quote(time), quote(snapshots.tau), checksum, hex(snapshot_chunks.bytes) "
+        "FROM snapshots JOIN snapshot_chunks USING (job_id, time) JOIN jobs USING (job_id) "
+        "ORDER BY identity, time, position",
         "SELECT identity, quote(tau_c), quote(time_c) FROM results JOIN jobs USING (job_id) ORDER "
         "BY identity"}) {
     SQLite::Statement row(store, sql);

@@ -9,6 +9,7 @@
 
 #include "engine/collision/pair_geometry.hpp"
 #include "engine/initial.hpp"
+#include "engine/soundness.hpp"
 
 using namespace haff::engine;
 
@@ -125,4 +126,70 @@ TEST_CASE("a gas in which no particle moves cannot be run") {
   for (Vector& v : still.velocity) v = {0, 0, 0};
   Simulation gas({.restitution = 1}, still);
   CHECK_THROWS_AS(gas.run_to(1), PhysicsError);
+}
+
+// ---- stops at a time --------------------------------------------------------------------------
+
+namespace {
+
+// What a gas of these effects is like after tau = 25, looked at on the way so many times.
+State after_looks(const Model& model, int d, const Threads& threads, int looks) {
+  Simulation gas(model, initial_state(d == 2 ? 0.4 : 0.3, 1000, 1, d, model.effects),
+                 SearchBackend::simd, threads);
+  const std::int64_t end = collisions_at(25, 1000);
+  for (int k = 0; k < looks; ++k) {
+    const double time = 0.013 * k;
+    if (!gas.run_to(end, time)) break;
+    CHECK(gas.time() == doctest::Approx(time).epsilon(1e-12));
+    CHECK(gas.snapshot().time == gas.time());
+  }
+  gas.run_to(collisions_at(30, 1000));
+  return gas.state();
+}
+
+}  // namespace
+
+TEST_CASE("stops at times change nothing, whatever the gas and the number of threads") {
+  const std::map<std::string, Parameters> rough{{"roughness", {{"beta", 0.5}, {"q", 0.4}}}};
+  const std::map<std::string, Parameters> mixed{
+      {"mixture", {{"fraction", 0.5}, {"diameter_ratio", 0.8}, {"mass_ratio", 0.1}}}};
+  const std::map<std::string, Parameters> driven{{"thermostat", {{"rate", 0.05}}}};
+  for (const auto& effects : {std::map<std::string, Parameters>{}, rough, mixed, driven})
+    for (const int d : {2, 3})
+      for (const unsigned threads : {1U, 2U}) {
+        CAPTURE(d);
+        CAPTURE(threads);
+        const Model model{.restitution = 0.8, .law = {}, .effects = effects, .seed = 1};
+        const Threads on{.count = threads};
+        CHECK(after_looks(model, d, on, 2000) == after_looks(model, d, on, 0));
+      }
+}
+
+TEST_CASE("a gas at a time lies between two collisions") {
+  Simulation gas({.restitution = 0.8}, initial_state(0.3, particles, 1));
+  REQUIRE(gas.run_to(at(20), 1.0));
+  const State before = gas.snapshot();
+  CHECK(before.time == 1.0);
+  CHECK(before.collisions == gas.collisions());
+  CHECK_FALSE(unsoundness(before));
+  // Free flight until the next collision: positions move, velocities and collisions do not.
+  gas.run_to(before.collisions);
+  CHECK(gas.time() == 1.0);
+  const double later = 1.0 + 1e-9;
+  REQUIRE(gas.run_to(at(20), later));
+  const State after = gas.snapshot();
+  REQUIRE(after.collisions == before.collisions);
+  CHECK(after.velocity == before.velocity);
+  for (std::size_t i = 0; i < particles; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double moved = after.position[i][k] - before.position[i][k];
+      const double expected = std::ldexp(after.velocity[i][k], -after.exponent) * 1e-9;
+      // The rounding of a position in a box of 12, unless a face lies between.
+      if (std::abs(moved) < 1) CHECK(std::abs(moved - expected) < 1e-14);
+    }
+  // A time that has passed is now.
+  CHECK(gas.run_to(at(20), 0.5));
+  CHECK(gas.time() == doctest::Approx(later).epsilon(1e-15));
+  CHECK_FALSE(gas.run_to(before.collisions + 1, 1e9));
+  CHECK(gas.collisions() == before.collisions + 1);
 }

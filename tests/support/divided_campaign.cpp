@@ -20,7 +20,8 @@ using namespace std::chrono_literals;
 const std::string grid_with_everything = R"({
   "n": 0.3, "N": 500, "seeds": 3, "equilibrate": 20, "checkpoint_every": 10,
   "grids": [
-    {"e": [0.8, 0.95], "tau_max": 60, "profiles_every": 20, "fields_at": [20], "observables":
+    {"e": [0.8, 0.95], "tau_max": 60, "profiles_every": 20, "fields_at": [20],
+      "sample_at": {"tau": {"log": 3}, "time": {"log": 2}}, "snapshots_at": [5, 25], "observables":
       ["temperature", "laguerre", "distribution", "correlations", "clusters", "fields"]},
     {"e": 0.7, "tau_max": 60, "effects": {"roughness": {"beta": 0.5, "q": 0.4}}},
     {"e": 0.9, "seeds": 5, "tau_max": 15, "target": {"a2": {"tau": [5, 15], "se": 0.005}}}]})";

@@ -30,6 +30,7 @@ constexpr const char* every_effect_and_observable = R"(
   "observables": ["temperature", "laguerre"],
   "grids": [
     {"e": 0.8, "profiles_every": 2, "fields_at": [2],
+     "sample_at": {"tau": [0.3], "time": {"log": 2}}, "snapshots_at": {"tau": [0, 2.5], "time": [1]},
      "observables": ["temperature", "laguerre", "distribution", "tail", "correlations",
                      "structure", "pair_distribution", "energy_spectrum", "clusters",
                      "cluster_sizes", "collision_statistics", "msd", "vacf@2", "fields"]},
@@ -128,8 +129,9 @@ std::string form_in_file(const SQLite::Column& value, std::mt19937_64& random) {
 }
 
 // What means and figures are made of, or a job goes on from.
-constexpr std::array tables{"samples", "samples",           "profiles",   "fields",
-                            "results", "checkpoint_chunks", "invariants", "jobs"};
+constexpr std::array tables{
+    "samples",         "samples",           "profiles", "fields",     "snapshots",
+    "snapshot_chunks", "checkpoint_chunks", "results",  "invariants", "jobs"};
 
 // A bit of a value of a random row; nothing where its bytes stand in more places than one.
 std::optional<Bit> of_a_value(SQLite::Database& store, const std::string& bytes,

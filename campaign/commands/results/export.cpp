@@ -6,104 +6,158 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numeric>
+#include <nlohmann/json.hpp>
 #include <ostream>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "campaign/base/process/exit_code.hpp"
 #include "campaign/base/text/command_text.hpp"
 #include "campaign/base/text/job_text.hpp"
+#include "campaign/base/text/number_text.hpp"
+#include "campaign/base/text/text_table.hpp"
+#include "campaign/commands/json_output.hpp"
+#include "campaign/state/extended_xyz.hpp"
 #include "campaign/state/restore.hpp"
-#include "engine/mixture.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::campaign {
 namespace {
 
-constexpr double radius = 0.5;  // of species 1, if there are two [sigma]
+// A moment as a person writes it, and as it is stored. [relative]
+constexpr double rounding = 1e-9;
 
-// The box and its periods; disks lie in the middle of a layer one diameter high.
-std::string cell(const engine::State& state) {
-  if (state.d == 2)
-    return fmt::format(R"(Lattice="{0} 0 0 0 {0} 0 0 0 1" Origin="0 0 -0.5" pbc="T T F")",
-                       state.box);
-  return fmt::format(R"(Lattice="{0} 0 0 0 {0} 0 0 0 {0}" Origin="0 0 0" pbc="T T T")", state.box);
+bool is_at(double moment, double asked) {
+  return std::abs(moment - asked) <= rounding * std::max(1.0, std::abs(asked));
 }
 
-// Angular velocities of rough particles, three numbers each by id, scaled like the velocities.
-const std::vector<double>* spins_of(const engine::State& state) {
-  const auto found = state.memory.find("spin");
-  return found == state.memory.end() ? nullptr : &found->second;
-}
+class Export {
+ public:
+  Export(const std::filesystem::path& path, std::int64_t job_id, std::ostream& out)
+      : store_(path), row_(store_.job(job_id)), snapshots_(store_.snapshots(job_id)), out_(out) {}
 
-std::string quoted(const std::string& json) {
-  std::string text;
-  for (const char c : json) text += c == '"' ? std::string("\\\"") : std::string(1, c);
-  return text;
-}
-
-std::string head(const engine::State& state, const schema::JobRow& row) {
-  const double tau = 2 * static_cast<double>(state.collisions) / state.particles();
-  return fmt::format(
-      "{}\n{} Properties=id:I:1:pos:R:3:velo:R:3:radius:R:1:species:I:1:mass:R:1{} "
-      "job_id={}{} n={} seed={} tau={} Time={} effects=\"{}\"\n",
-      state.particles(), cell(state), spins_of(state) ? ":angular_velocity:R:3" : "", row.job_id,
-      row.job.e ? fmt::format(" e={}", *row.job.e) : "", row.job.n, row.job.seed, tau, state.time,
-      quoted(row.job.effects.text()));
-}
-
-std::vector<std::size_t> places_by_id(const engine::State& state) {
-  std::vector<std::size_t> places(state.id.size());
-  std::iota(places.begin(), places.end(), std::size_t{0});
-  std::sort(places.begin(), places.end(),
-            [&](std::size_t a, std::size_t b) { return state.id[a] < state.id[b]; });
-  return places;
-}
-
-void write(const engine::State& state, std::ostream& out) {
-  constexpr std::size_t chunk = std::size_t{1} << 20;  // [bytes]
-  fmt::memory_buffer text;
-  const auto flush = [&] {
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    text.clear();
-  };
-  const auto mixture = mixture_in(state);
-  const auto* spins = spins_of(state);
-  for (const std::size_t place : places_by_id(state)) {
-    const auto& r = state.position[place];
-    const auto& v = state.velocity[place];
-    const std::uint32_t id = state.id[place];
-    const auto scaled = [&](double value) { return std::ldexp(value, -state.exponent); };
-    fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {} {} {}", id, r[0], r[1], r[2],
-                   scaled(v[0]), scaled(v[1]), scaled(v[2]),
-                   mixture ? radius * mixture->diameter_of(id) : radius,
-                   mixture && mixture->is_second(id) ? 2 : 1, mixture ? mixture->mass_of(id) : 1.0);
-    if (spins != nullptr)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        fmt::format_to(std::back_inserter(text), " {}", scaled(spins->at(3 * id + axis)));
-    text.push_back('\n');
-    if (text.size() > chunk) flush();
+  void last_state() {
+    const auto state = newest_state(store_, row_.job_id, row_.job);
+    if (!state)
+      throw schema::NameError(
+          fmt::format("{}: no state of job {} ({}) is stored yet; run it at least to its first "
+                      "checkpoint, tau = {}, with: {}",
+                      store_.path().string(), row_.job_id, describe(row_.job),
+                      row_.checkpoint_every, command_text("run", store_.path())));
+    write(*state, 2 * static_cast<double>(state->collisions) / state->particles());
   }
-  flush();
-}
+
+  void snapshot_at(const char* axis, double schema::SnapshotInfo::*moment, double asked) {
+    const auto found = std::ranges::find_if(
+        snapshots_, [&](const schema::SnapshotInfo& info) { return is_at(info.*moment, asked); });
+    if (found == snapshots_.end())
+      throw schema::NameError(fmt::format("{}: job {} ({}) has no snapshot at {} = {}; {}",
+                                          store_.path().string(), row_.job_id, describe(row_.job),
+                                          axis, number_text(asked), what_there_is()));
+    write(*found);
+  }
+
+  void all_snapshots() {
+    if (snapshots_.empty())
+      throw schema::NameError(fmt::format("{}: job {} ({}) has no snapshot; {}",
+                                          store_.path().string(), row_.job_id, describe(row_.job),
+                                          what_there_is()));
+    for (const schema::SnapshotInfo& info : snapshots_) write(info);
+  }
+
+  void print_list(bool json) const {
+    const auto state = last_checkpoint();
+    if (json) {
+      nlohmann::ordered_json list = nlohmann::ordered_json::array();
+      for (const schema::SnapshotInfo& info : snapshots_)
+        list.push_back({{"what", "snapshot"},
+                        {"tau", info.tau},
+                        {"time", info.time},
+                        {"collisions", info.collisions},
+                        {"bytes", info.bytes}});
+      if (state)
+        list.push_back({{"what", "last state"},
+                        {"tau", state->tau},
+                        {"time", nullptr},
+                        {"collisions", state->collisions},
+                        {"bytes", state->bytes}});
+      return print_json(list);
+    }
+    TextTable table({{"", Align::left}, {"tau"}, {"time"}, {"collisions"}, {"size"}});
+    for (const schema::SnapshotInfo& info : snapshots_)
+      table.add({"snapshot", number_text(info.tau), number_text(info.time),
+                 count_text(info.collisions), bytes_text(static_cast<double>(info.bytes))});
+    if (state)
+      table.add({"last state", number_text(state->tau), no_value, count_text(state->collisions),
+                 bytes_text(static_cast<double>(state->bytes))});
+    out_ << (table.empty() ? fmt::format("Job {} has no snapshot, and no state yet\n", row_.job_id)
+                           : table.text());
+  }
+
+  void finish() {
+    out_.flush();
+    if (!out_) throw std::runtime_error("the state could not be written; is the disk full?");
+  }
+
+ private:
+  std::optional<schema::CheckpointInfo> last_checkpoint() const {
+    for (const schema::CheckpointInfo& info : store_.checkpoints())
+      if (info.job_id == row_.job_id) return info;
+    return std::nullopt;
+  }
+
+  std::string what_there_is() const {
+    if (row_.job.snapshots_at.empty())
+      return "its grid has no \"snapshots_at\", and without an option its last state is exported";
+    std::string list;
+    constexpr std::size_t most = 10;
+    for (std::size_t k = 0; k < std::min(most, snapshots_.size()); ++k)
+      list += fmt::format("{}{}", k == 0 ? "" : ", ", number_text(snapshots_[k].tau));
+    if (snapshots_.size() > most) list += " ...";
+    return list.empty() ? fmt::format("its first one is still to come: {}",
+                                      command_text("run", store_.path()))
+                        : fmt::format("there are those at tau = {} (see --list)", list);
+  }
+
+  void write(const schema::SnapshotInfo& info) {
+    const auto state = snapshot_state(store_, row_.job_id, row_.job, info.time);
+    if (!state) throw std::runtime_error("a snapshot was removed while it was exported");
+    write(*state, info.tau);
+  }
+
+  void write(const engine::State& state, double tau) {
+    write_xyz(state,
+              fmt::format("job_id={}{} n={} seed={} tau={} Time={} effects={}", row_.job_id,
+                          row_.job.e ? fmt::format(" e={}", *row_.job.e) : "", row_.job.n,
+                          row_.job.seed, tau, state.time, quoted_for_xyz(row_.job.effects.text())),
+              out_);
+  }
+
+  schema::Reader store_;
+  schema::JobRow row_;
+  std::vector<schema::SnapshotInfo> snapshots_;  // by time
+  std::ostream& out_;
+};
 
 }  // namespace
 
-int export_state(const std::filesystem::path& path, std::int64_t job_id, std::ostream& out) {
-  const schema::Reader store(path);
-  const schema::JobRow row = store.job(job_id);
-  const auto state = newest_state(store, job_id, row.job);
-  if (!state)
-    throw schema::NameError(fmt::format(
-        "{}: no state of job {} ({}) is stored yet; run it at least to its first "
-        "checkpoint, tau = {}, with: {}",
-        path.string(), job_id, describe(row.job), row.checkpoint_every, command_text("run", path)));
-  out << head(*state, row);
-  write(*state, out);
-  out.flush();
-  if (!out) throw std::runtime_error("the state could not be written; is the disk full?");
+int export_state(const std::filesystem::path& path, const ExportOptions& options,
+                 std::ostream& out) {
+  if (options.json && !options.list)
+    throw schema::NameError("--json goes with --list; what is exported is extended XYZ");
+  Export job(path, options.job_id, out);
+  if (options.list)
+    job.print_list(options.json);
+  else if (options.all)
+    job.all_snapshots();
+  else if (options.at_tau)
+    job.snapshot_at("tau", &schema::SnapshotInfo::tau, *options.at_tau);
+  else if (options.at_time)
+    job.snapshot_at("time", &schema::SnapshotInfo::time, *options.at_time);
+  else
+    job.last_state();
+  job.finish();
   return exit_complete;
 }
 

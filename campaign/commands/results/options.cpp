@@ -143,18 +143,34 @@ Exit code 1 if no finished run has what is asked for, 2 if a name or the SQL is 
   return command;
 }
 
-CLI::App* add_export(CLI::App& app, ExportCommand& options) {
-  auto* command =
-      app.add_subcommand("export", "Print a job's last stored state as extended XYZ, for OVITO");
+CLI::App* add_export(CLI::App& app, ExportOptions& options) {
+  auto* command = app.add_subcommand(
+      "export", "Print a job's gas as extended XYZ, for OVITO, ASE and chemfiles");
   command->add_option("JOB", options.job_id, "The job_id, as in the table jobs")
       ->type_name("NUMBER")
       ->required();
+  auto* at = command->add_option("--at", options.at_tau,
+                                 "The snapshot at this tau; without, the last stored state");
+  at->type_name("TAU");
+  auto* at_time = command->add_option("--at-time", options.at_time, "The snapshot at this time");
+  at_time->type_name("TIME")->excludes(at);
+  auto* all =
+      command->add_flag("--all", options.all, "All snapshots, one after the other: a trajectory");
+  all->excludes(at)->excludes(at_time);
+  command->add_flag("--list", options.list, "What there is to export")
+      ->excludes(at)
+      ->excludes(at_time)
+      ->excludes(all);
   command->footer(examples(
       R"(  campaign query "SELECT job_id, kind, e, n, particles, seed, tau_reached FROM jobs"
-  campaign export 3 > job-3.xyz     open it in OVITO: particles, box, velocities
-  campaign export 3 | gzip > job-3.xyz.gz
+  campaign export 3 --list
+  campaign export 3 > job-3.xyz          the newest state; its tau stands in the second line
+  campaign export 3 --at 20 > at-20.xyz  a snapshot: list its tau in the grid's "snapshots_at"
+  campaign export 3 --all | gzip > job-3.xyz.gz
 
-What is stored is the newest checkpoint; its tau stands in the second line.)"));
+Each particle has its species (H, and He for the second of a mixture), position, velocity, radius,
+mass, id and, where particles are rough, angular velocity; the second line has cell and periodicity.
+Units are sigma, m and E(0).)"));
   return command;
 }
 

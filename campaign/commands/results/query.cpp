@@ -114,7 +114,7 @@ constexpr std::array averaged{Averaged{"mean_series", schema::Part::samples},
                               Averaged{"mean_tau_c", schema::Part::results}};
 
 constexpr std::array shown{schema::Part::samples, schema::Part::profiles, schema::Part::fields,
-                           schema::Part::results};
+                           schema::Part::snapshots, schema::Part::results};
 
 // A statement names what it reads, as there are no views in a store but the program's own. What is
 // named elsewhere in it, in a text or a comment, is checked for nothing.

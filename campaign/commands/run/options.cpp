@@ -35,6 +35,10 @@ A grid, with its defaults from "sample_every" on:
     "sample_every": 1, "equilibrate": 50, "checkpoint_every": 10,
     "observables": ["temperature", "laguerre"] }
 
+Further samples, 20 a decade of tau, and the whole gas at three of them, for export:
+  { "e": 0.9, "n": 0.4, "N": 32000, "seeds": 2, "tau_max": 180,
+    "sample_at": {"log": 20}, "snapshots_at": [1, 10, 100] }
+
 A standard error instead of a number of seeds; those given are pilot runs, `run` adds to them:
   { "e": 0.9, "n": 0.4, "N": 8000, "seeds": 5, "tau_max": 15,
     "target": {"a2": {"tau": [5, 15], "se": 1e-3}} })"));

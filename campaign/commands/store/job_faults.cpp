@@ -32,11 +32,11 @@ using Texts = std::vector<std::string>;
 constexpr double digits_of_logarithms = 1e-10;
 
 void check_order(const std::vector<Sample>& samples, const JobRow& row, Texts& faults) {
-  for (std::size_t k = 0; k < samples.size(); ++k) {
+  SampleTaus expected(row.job);
+  for (std::size_t k = 0; k < samples.size(); ++k, expected.advance()) {
     const Sample& now = samples[k];
-    const double expected = sample_tau(row.job.sample_every, static_cast<std::int64_t>(k));
-    if (now.tau != expected) {
-      faults.push_back(fmt::format("the sample at tau = {} is missing", expected));
+    if (now.tau != expected.tau()) {
+      faults.push_back(fmt::format("the sample at tau = {} is missing", expected.tau()));
       return;
     }
     if (k == 0) continue;
@@ -71,7 +71,7 @@ bool agree(const schema::Results& one, const schema::Results& other) {
 
 void check_complete(const Reader& store, const JobRow& row, const std::vector<Sample>& samples,
                     Texts& faults) {
-  const std::int64_t expected = sample_count(row.job.sample_every, row.tau_max);
+  const std::int64_t expected = sample_count(row.job, row.tau_max);
   if (static_cast<std::int64_t>(samples.size()) < expected)
     faults.push_back(fmt::format("done, but has {} of {} samples", samples.size(), expected));
   if (row.job.kind == schema::Kind::equilibration) {
@@ -175,6 +175,24 @@ void check_views(const Reader& store, const JobRow& row, const Parts& parts, Tex
   }
 }
 
+// That each is there up to the newest state, as the job's rows are, and could be exported.
+void check_snapshots(const Reader& store, const JobRow& row, const Parts& parts, Texts& faults) {
+  if (row.job.snapshots_at.empty() || parts.are_wrong({schema::Part::snapshots})) return;
+  std::int64_t at_tau = 0;
+  for (const schema::SnapshotInfo& info : store.snapshots(row.job_id)) try {
+      snapshot_state(store, row.job_id, row.job, info.time);
+      const double next = row.job.snapshots_at.tau.next(std::nextafter(info.tau, -1.0));
+      at_tau += next == info.tau ? 1 : 0;
+    } catch (const schema::Damage& damage) {
+      faults.emplace_back(damage.what());
+    } catch (const DamagedCheckpoint& damage) {
+      faults.emplace_back(damage.what());
+    }
+  const std::int64_t expected = count_through(row.job.snapshots_at.tau, row.tau_max);
+  if (row.status == schema::Status::done && at_tau < expected)
+    faults.push_back(fmt::format("done, but has {} of {} snapshots", at_tau, expected));
+}
+
 void check_rows(const Reader& store, const JobRow& row, const Parts& parts, Texts& faults) {
   try {
     if (!parts.are_wrong({schema::Part::invariants})) check_invariants(store, row, faults);
@@ -196,6 +214,7 @@ JobFaults faults_of(const Reader& store, const JobRow& row) {
   check_state(store, row, parts, faults);
   check_rows(store, row, parts, faults.rows);
   check_views(store, row, parts, faults.rows);
+  check_snapshots(store, row, parts, faults.rows);
   return faults;
 }
 

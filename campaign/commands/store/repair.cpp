@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -31,9 +30,6 @@ namespace {
 using schema::JobRow;
 using schema::Part;
 using schema::Store;
-
-// What a second computation gives; the rest is bookkeeping.
-constexpr std::array computed{Part::samples, Part::profiles, Part::fields, Part::results};
 
 std::string job_name(const JobRow& row) {
   return fmt::format("job {} ({})", row.job_id, describe(row.job));
@@ -234,7 +230,7 @@ bool has_other_state(const Store& store, const JobRow& row, const Recomputation&
 Replaced replace(Store& store, const JobRow& row, const Recomputation& again,
                  bool has_damaged_state) {
   Replaced replaced;
-  for (const Part part : computed)
+  for (const Part part : computed_parts)
     replaced.rows += store.replace_rows(row.job_id, part, again.store, again.job_id);
   store.replace_rows(row.job_id, Part::invariants, again.store, again.job_id);
   // Rows that came out different may be of a trajectory that was disturbed: then so is its state.

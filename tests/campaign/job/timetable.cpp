@@ -94,3 +94,67 @@ TEST_CASE("timetable: collisions never decrease") {
   for (std::size_t k = 1; k < stops.size(); ++k)
     CHECK(stops[k - 1].collisions <= stops[k].collisions);
 }
+
+// ---- moments of their own ---------------------------------------------------------------------
+
+TEST_CASE("timetable: samples of sample_at come between the others") {
+  schema::Job between = job(4);
+  between.sample_at.tau.listed = {0.5, 8, 9.5, 12.5};
+  const auto stops = all(Timetable(between, 13, 10));
+  CHECK(taus(stops, Stop::Due::sample) == std::vector<double>{0, 0.5, 4, 8, 9.5, 12, 12.5});
+  CHECK(sample_count(between, 13) == 7);
+  CHECK(sample_count(between, 12) == 6);
+}
+
+TEST_CASE("timetable: a moment that is the collision of another sample is left out") {
+  schema::Job ten = job(1, 10);  // tau = 0.2 is one collision
+  ten.sample_at.tau.listed = {0.05, 0.1, 0.95, 1.9, 1.95};
+  CHECK(taus(all(Timetable(ten, 2, 10)), Stop::Due::sample) == std::vector<double>{0, 0.05, 1, 2});
+  schema::Job decades = job(1, 10);
+  decades.sample_at.tau = {.per_decade = 20, .from = 0.1};
+  const auto stops = all(Timetable(decades, 20, 10));
+  for (std::size_t k = 1; k < stops.size(); ++k)
+    if (stops[k].due == Stop::Due::sample && stops[k - 1].due == Stop::Due::sample)
+      CHECK(stops[k].collisions > stops[k - 1].collisions);
+  CHECK(static_cast<std::int64_t>(taus(stops, Stop::Due::sample).size()) ==
+        sample_count(decades, 20));
+}
+
+TEST_CASE("timetable: rounding makes no second sample of one moment") {
+  schema::Job tenth = job(0.1);
+  tenth.sample_at.tau.listed = {0.3};  // 3 * 0.1 > 0.3
+  CHECK(taus(all(Timetable(tenth, 0.4, 10)), Stop::Due::sample) ==
+        std::vector<double>{0, 0.1, 0.2, 3 * 0.1, 0.4});
+}
+
+TEST_CASE("timetable: snapshots come after the sample at their collision, before its state") {
+  schema::Job kept = job(5);
+  kept.snapshots_at.tau.listed = {0, 10, 12.5};
+  const auto stops = all(Timetable(kept, 12.5, 10));
+  std::vector<Stop::Due> due;
+  for (const Stop& stop : stops) due.push_back(stop.due);
+  using enum Stop::Due;
+  CHECK(due == std::vector{sample, snapshot, sample, sample, snapshot, synchronization, snapshot});
+  Timetable later(kept, 12.5, 10);
+  later.skip_through(500);
+  CHECK(taus(all(later), snapshot) == std::vector{12.5});
+}
+
+TEST_CASE("timetable: the state before the last moment is kept") {
+  schema::Job late = job(7);
+  late.snapshots_at.tau.listed = {20};
+  CHECK(taus(all(Timetable(late, 20, 1000)), Stop::Due::synchronization, true) ==
+        std::vector{20.0});
+}
+
+TEST_CASE("timetable: profiles and fields are not taken at moments of sample_at") {
+  schema::Job profiled = job(1);
+  profiled.profiles_every = 10;
+  profiled.fields_at = {10};
+  CHECK(has_profiles(profiled, 10));
+  profiled.sample_at.tau.listed = {9.8};
+  CHECK(has_profiles(profiled, 10));
+  CHECK(has_fields(profiled, 10));
+  CHECK_FALSE(has_profiles(profiled, 9.8));
+  CHECK_FALSE(has_fields(profiled, 9.8));
+}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// `campaign export`: the last stored state of a job as extended XYZ.
+// `campaign export`: the last stored state of a job, and its snapshots, as extended XYZ.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -34,13 +34,13 @@ TEST_CASE("export: every particle in its box, with the energy of the sample") {
   std::getline(lines, head);
   CHECK(count == "500");
   CHECK(head.starts_with("Lattice=\"10.7721734501594"));
-  CHECK(head.find("Properties=id:I:1:pos:R:3:velo:R:3:radius:R:1:species:I:1:mass:R:1 ") !=
+  CHECK(head.find("Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1 ") !=
         std::string::npos);
   CHECK(head.find(" job_id=2 e=0.8 n=0.4 seed=1 tau=20 Time=") != std::string::npos);
   double squares = 0;
   int particles = 0;
-  for (int id; lines >> id; ++particles) {
-    CHECK(id == particles);
+  for (std::string species; lines >> species; ++particles) {
+    CHECK(species == "H");
     double r[3], v[3], radius;
     for (double& x : r) {
       lines >> x;
@@ -52,10 +52,10 @@ TEST_CASE("export: every particle in its box, with the energy of the sample") {
       squares += x * x;
     }
     double mass;
-    int species;
-    lines >> radius >> species >> mass;
+    int id;
+    lines >> radius >> mass >> id;
+    CHECK(id == particles);
     CHECK(radius == 0.5);
-    CHECK(species == 1);
     CHECK(mass == 1);
   }
   CHECK(particles == 500);
@@ -77,17 +77,19 @@ TEST_CASE("export: a rough mixture says which particles are of which species, an
   std::string count, head;
   std::getline(lines, count);
   std::getline(lines, head);
-  CHECK(head.find(":species:I:1:mass:R:1:angular_velocity:R:3 ") != std::string::npos);
+  CHECK(head.find(":mass:R:1:id:I:1:angular_velocity:R:3 ") != std::string::npos);
   CHECK(head.find("effects=\"{\\\"mixture\\\":") != std::string::npos);
   int second = 0;
   double spin = 0;
   for (std::string line; std::getline(lines, line);) {
-    std::istringstream numbers(line);
-    std::vector<double> x{std::istream_iterator<double>(numbers), {}};
-    REQUIRE(x.size() == 13);
-    CHECK(x[9] == (x[8] == 2 ? 0.1 : 1.0));
-    second += x[8] == 2;
-    spin += std::abs(x[10]) + std::abs(x[11]) + std::abs(x[12]);
+    std::istringstream words(line);
+    std::string species;
+    words >> species;
+    std::vector<double> x{std::istream_iterator<double>(words), {}};
+    REQUIRE(x.size() == 12);
+    CHECK(x[7] == (species == "He" ? 0.1 : 1.0));
+    second += species == "He";
+    spin += std::abs(x[9]) + std::abs(x[10]) + std::abs(x[11]);
   }
   CHECK(second == 50);
   CHECK(spin > 0);
@@ -124,4 +126,124 @@ TEST_CASE("export: a full disk is reported") {
   const Folder folder;
   run(folder);
   CHECK(shell(folder, "\"$campaign\" export 2 > /dev/full").exit_code == 1);
+}
+
+// ---- snapshots --------------------------------------------------------------------------------
+
+namespace {
+
+void run_with_snapshots(const Folder& folder) {
+  folder.write("grid.json", R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 20,
+    "snapshots_at": {"tau": [0, 2.5, 10], "time": [1.5]}})");
+  REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
+  REQUIRE(campaign(folder, {"run"}).exit_code == 0);
+}
+
+// Reads extended XYZ as others do, by the names in the second line, and says what it found: frames,
+// particles, columns, cell, periodicity, tau, time, and the energy per particle.
+constexpr const char* reader = R"(
+import re, sys
+frames = 0
+lines = open(sys.argv[1]).read().split("\n")[:-1]
+while lines:
+    count = int(lines[0])
+    facts = dict((k, v.strip('"')) for k, v in
+                 re.findall(r'(\w+)=("(?:[^"\\]|\\.)*"|\S+)', lines[1]))
+    kinds = facts["Properties"].split(":")
+    columns, at = {}, 0
+    for name, kind, width in zip(kinds[0::3], kinds[1::3], kinds[2::3]):
+        columns[name] = (kind, at, int(width))
+        at += int(width)
+    energy, ids = 0.0, []
+    for line in lines[2:2 + count]:
+        words = line.split(" ")
+        assert len(words) == at, (len(words), at)
+        kind, begin, width = columns["velo"]
+        _, mass, _ = columns["mass"]
+        energy += 0.5 * float(words[mass]) * sum(float(v)**2 for v in words[begin:begin + width])
+        ids.append(int(words[columns["id"][1]]))
+    assert ids == list(range(count))
+    print(count, facts["Lattice"].split()[0], facts["pbc"], facts["tau"], facts["Time"],
+          repr(energy / count))
+    lines = lines[2 + count:]
+)";
+
+}  // namespace
+
+TEST_CASE("export: each snapshot, all of them as a trajectory, and a list") {
+  const Folder folder;
+  run_with_snapshots(folder);
+  folder.write("read.py", reader);
+
+  const Outcome list = campaign(folder, {"export", "2", "--list"});
+  CHECK(list.exit_code == 0);
+  CHECK(list.out.find(" 2.5  ") != std::string::npos);
+  CHECK(list.out.find("last state") != std::string::npos);
+  const Outcome json = campaign(folder, {"--json", "export", "2", "--list"});
+  CHECK(json.out.find(R"("what": "snapshot")") != std::string::npos);
+
+  const Outcome all =
+      shell(folder, "\"$campaign\" export 2 --all > all.xyz && python3 read.py all.xyz");
+  CAPTURE(all.err);
+  REQUIRE(all.exit_code == 0);
+  std::istringstream frames(all.out);
+  std::vector<double> taus, times, energies;
+  double cell;
+  for (int count; frames >> count;) {
+    std::string t1, t2, t3;
+    frames >> cell >> t1 >> t2 >> t3 >> taus.emplace_back() >> times.emplace_back() >>
+        energies.emplace_back();
+    CHECK(count == 500);
+    CHECK(t1 + t2 + t3 == "TTT");
+  }
+  REQUIRE(taus.size() == 4);
+  CHECK(taus[0] == 0);
+  CHECK(taus[1] == 2.5);
+  CHECK(times[2] == 1.5);
+  CHECK(taus[3] == 10);
+  CHECK(energies[0] == doctest::Approx(1).epsilon(1e-13));
+  // That of the sample at the same collision; sums run in another order.
+  const double temperature =
+      number(folder, "SELECT temperature FROM samples WHERE job_id = 2 AND tau = 10");
+  CHECK(energies[3] == doctest::Approx(1.5 * temperature).epsilon(1e-12));
+
+  const Outcome one =
+      shell(folder, "\"$campaign\" export 2 --at 2.5 > one.xyz && python3 read.py one.xyz");
+  CHECK(one.out.find(" 2.5 ") != std::string::npos);
+  const Outcome at_time = campaign(folder, {"export", "2", "--at-time", "1.5"});
+  CHECK(at_time.out.find(" Time=1.5 ") != std::string::npos);
+}
+
+TEST_CASE("export: a snapshot that there is not is named with those that there are") {
+  const Folder folder;
+  run_with_snapshots(folder);
+  const Outcome wrong = campaign(folder, {"export", "2", "--at", "3"});
+  CHECK(wrong.exit_code == 2);
+  CHECK(wrong.out.empty());
+  CHECK(wrong.err.find("has no snapshot at tau = 3; there are those at tau = 0, 2.5, ") !=
+        std::string::npos);
+  const Outcome none = campaign(folder, {"export", "1", "--all"});
+  CHECK(none.exit_code == 2);
+  CHECK(none.err.find("its grid has no \"snapshots_at\"") != std::string::npos);
+  CHECK(campaign(folder, {"export", "2", "--at", "3", "--all"}).exit_code == 2);
+  CHECK(campaign(folder, {"export", "2", "--at", "x"}).exit_code == 2);
+  CHECK(campaign(folder, {"--json", "export", "2"}).exit_code == 2);
+}
+
+TEST_CASE("export: a damaged snapshot is not written; verify finds it, and repair mends it") {
+  const Folder folder;
+  run_with_snapshots(folder);
+  const std::string before = rows(folder);
+  sabotage(folder, "UPDATE snapshot_chunks SET bytes = zeroblob(length(bytes)) WHERE time = 1.5");
+  const Outcome damaged = campaign(folder, {"export", "2", "--at-time", "1.5"});
+  CHECK(damaged.exit_code == 1);
+  CHECK(damaged.out.empty());
+  CHECK(damaged.err.find("the snapshot of job 2") != std::string::npos);
+  CHECK(campaign(folder, {"export", "2", "--at", "10"}).exit_code == 0);
+  CHECK(campaign(folder, {"verify"}).exit_code == 1);
+  CHECK(campaign(folder, {"verify", "--recompute", "2"}).out.find("damaged in the store") !=
+        std::string::npos);
+  CHECK(campaign(folder, {"verify", "--repair"}).exit_code == 0);
+  CHECK(campaign(folder, {"verify"}).exit_code == 0);
+  CHECK(rows(folder) == before);
 }

@@ -19,7 +19,9 @@ namespace {
 // below, so the engine's scaling of velocities is interrupted as well.
 constexpr const char* long_grid = R"({
   "e": [0.9, 0.95], "n": 0.4, "N": 1000, "seeds": 3, "tau_max": 1500, "sample_every": 4,
-  "checkpoint_every": 20, "profiles_every": 60, "fields_at": [300, 1500], "observables":
+  "checkpoint_every": 20, "profiles_every": 60, "fields_at": [300, 1500],
+  "sample_at": {"tau": {"log": 5}, "time": {"log": 3}},
+  "snapshots_at": {"tau": {"log": 2}, "time": {"log": 1}}, "observables":
   ["temperature", "laguerre", "distribution", "tail", "correlations", "structure",
    "pair_distribution", "energy_spectrum", "clusters", "cluster_sizes", "collision_statistics",
    "msd", "msd@100", "vacf@100", "fields"]})";

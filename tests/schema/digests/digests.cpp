@@ -46,6 +46,7 @@ struct Working {
                              .cells = 2,
                              .box = 10,
                              .values = {1, 2, 3, 4, 5, 6, 7, std::nan("")}});
+      made.snapshots.push_back({.tau = k * 1.0, .time = 2.0 * k, .state = bytes(100)});
     }
     return made;
   }

@@ -23,7 +23,8 @@ TEST_CASE("an unknown key is named with the nearest known one") {
       "g.json: /density: unknown key; expected one of \"N\", \"checkpoint_every\", "
       "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
       "\"observables\", "
-      "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
+      "\"profiles_every\", \"sample_at\", \"sample_every\", \"seeds\", \"snapshots_at\", "
+      "\"target\", \"tau_max\"");
   check_complaint(R"({"E": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 1})",
                   "g.json: /E: unknown key; did you mean \"e\"?");
   check_complaint(
@@ -31,7 +32,8 @@ TEST_CASE("an unknown key is named with the nearest known one") {
       "g.json: /a~1b~0c: unknown key; expected one of \"N\", \"checkpoint_every\", "
       "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
       "\"observables\", "
-      "\"profiles_every\", \"sample_every\", \"seeds\", \"target\", \"tau_max\"");
+      "\"profiles_every\", \"sample_at\", \"sample_every\", \"seeds\", \"snapshots_at\", "
+      "\"target\", \"tau_max\"");
 }
 
 TEST_CASE("a key of earlier versions is refused with the reason") {
@@ -369,4 +371,57 @@ TEST_CASE("waiting times of msd and vacf are samples of the run, spelled in one 
   for (int tau = 1; tau <= 16; ++tau) many += ", \"vacf@" + std::to_string(tau) + '"';
   CHECK(complaint(with("observables", many + "]")) ==
         "g.json: /observables/16: \"vacf@16\" is one waiting time too many; expected at most 16");
+}
+
+// ---- moments ----------------------------------------------------------------------------------
+
+TEST_CASE("samples and snapshots at moments of their own, in every form") {
+  const auto sample_at = [](const std::string& value) {
+    return parse(with("sample_at", value)).grids[0].sample_at;
+  };
+  CHECK(sample_at("0.5").tau.listed == std::vector{0.5});
+  CHECK(sample_at("[20, 0, 0.5]").tau.listed == std::vector<double>{0, 0.5, 20});
+  CHECK(sample_at(R"({"log": 20})").tau == Moments{.per_decade = 20, .from = 0.1});
+  CHECK(sample_at(R"({"log": 5, "from": 0.01})").tau == Moments{.per_decade = 5, .from = 0.01});
+  const Schedule both = sample_at(R"({"tau": [1.5], "time": {"log": 3, "from": 2}})");
+  CHECK(both.tau.listed == std::vector{1.5});
+  CHECK(both.time == Moments{.per_decade = 3, .from = 2});
+  CHECK(sample_at(R"({"time": [1e20, 3]})").time.listed == std::vector{3.0, 1e20});
+  CHECK(parse(with("snapshots_at", "[10]")).grids[0].snapshots_at.tau.listed == std::vector{10.0});
+  CHECK(parse(with("seeds", "1")).grids[0].sample_at.empty());
+  // Beside "grids" it is the default of all.
+  CHECK(parse(R"({"e": 0.8, "n": 0.4, "N": 1000, "seeds": 1, "tau_max": 9, "sample_at": [0.5],
+                  "grids": [{}, {"sample_at": [2.5]}]})")
+            .grids[1]
+            .sample_at.tau.listed == std::vector{2.5});
+}
+
+TEST_CASE("moments that no run meets, or that are no moments, are refused") {
+  check_complaint(with("sample_at", "[0.5, 95]"),
+                  "g.json: /sample_at/1: 95 is beyond the run; expected at most tau_max = 90");
+  check_complaint(with("snapshots_at", R"({"tau": {"log": 2, "from": 100}})"),
+                  "g.json: /snapshots_at/tau/from: 100 is beyond the run; expected at most "
+                  "tau_max = 90");
+  check_complaint(with("sample_at", "[0.4995, 0.5]"),
+                  "g.json: /sample_at/1: 0.5 is the same collision of 1000 particles as 0.4995; "
+                  "expected 2/N = 0.002 between two moments");
+  check_complaint(with("sample_at", R"({"log": 2, "time": [3]})"),
+                  "g.json: /sample_at/log: stands beside \"tau\" or \"time\"; expected it within "
+                  "one of them, as in {\"tau\": {\"log\": 20}}");
+  check_complaint(with("sample_at", R"({"from": 1})"),
+                  "g.json: /sample_at: has no \"log\"; expected so many moments a decade, as in "
+                  "{\"log\": 20}");
+  check_complaint(with("sample_at", R"({"time": {"from": 1}})"),
+                  "g.json: /sample_at/time: has no \"log\"; expected a number of moments a decade, "
+                  "a whole number from 1 to 100");
+  check_complaint(with("sample_at", R"({"log": 2.5})"),
+                  "g.json: /sample_at/log: 2.5 is not accepted; expected a number of moments a "
+                  "decade, a whole number from 1 to 100");
+  check_complaint(with("sample_at", R"({"lag": 2})"),
+                  "g.json: /sample_at/lag: unknown key; did you mean \"log\"?");
+  check_complaint(with("snapshots_at", R"({"time": [3, -1]})"),
+                  "g.json: /snapshots_at/time/1: -1 is not accepted; expected a time since the "
+                  "start of cooling [sigma sqrt(m/E(0))], from 0 to 1e100");
+  check_complaint(with("sample_at", "[1.5, 1.5]"),
+                  "g.json: /sample_at/1: 1.5 is already at /sample_at/0; expected each value once");
 }

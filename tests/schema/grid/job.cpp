@@ -70,3 +70,28 @@ TEST_CASE("names of kinds and statuses read back") {
   CHECK_THROWS_AS(kind_named("heating"), std::invalid_argument);
   CHECK_THROWS_AS(status_named("lost"), std::invalid_argument);
 }
+
+TEST_CASE("moments of samples and snapshots are part of a job where it has them") {
+  Job job = cooling();
+  const std::string without = identity(job);
+  job.sample_at = {.tau = {.listed = {0.5, 2}}, .time = {}};
+  job.snapshots_at = {.tau = {}, .time = {.per_decade = 3, .from = 0.1}};
+  const std::string with = identity(job);
+  CHECK(with.find(R"("sample_at":{"tau":[0.5,2]},"sample_every":1,"seed":1,"snapshots_at":)"
+                  R"({"time":{"from":0.1,"log":3}}})") != std::string::npos);
+  CHECK(identity(equilibration_of(job)) == identity(equilibration_of(cooling())));
+  CHECK(identity(unsampled(job)) == identity(unsampled(cooling())));
+  job.sample_at = {};
+  job.snapshots_at = {};
+  CHECK(identity(job) == without);
+}
+
+TEST_CASE("which samples are at equal intervals") {
+  Job job = cooling();
+  job.sample_every = 0.1;
+  CHECK(is_at_interval(job, 0.35));  // nothing else is taken
+  job.sample_at.tau.listed = {0.35};
+  CHECK(is_at_interval(job, 3 * 0.1));
+  CHECK(is_at_interval(job, 0));
+  CHECK_FALSE(is_at_interval(job, 0.35));
+}

@@ -76,8 +76,8 @@ TEST_CASE("$schema and keys that begin with _ are for editors and notes") {
   check_complaint(with("$schem", "1"),
                   "g.json: /$schem: unknown key; expected one of \"N\", \"checkpoint_every\", "
                   "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", "
-                  "\"name\", \"observables\", \"profiles_every\", \"sample_every\", \"seeds\", "
-                  "\"target\", \"tau_max\"");
+                  "\"name\", \"observables\", \"profiles_every\", \"sample_at\", \"sample_every\", "
+                  "\"seeds\", \"snapshots_at\", \"target\", \"tau_max\"");
 }
 
 TEST_CASE("a number too small for a double is named so") {
