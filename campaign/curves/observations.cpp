@@ -13,8 +13,9 @@ namespace haff::campaign {
 namespace {
 
 // A gas as the views of the store have it, then its tau where it is a profile's.
-constexpr const char* gas = "d, n, particles, e, equilibrate, sample_every, effects, sample_at";
-constexpr std::size_t gas_columns = 8;
+constexpr const char* gas =
+    "d, n, particles, e, equilibrate, sample_every, effects, sample_at, start";
+constexpr std::size_t gas_columns = 9;
 
 std::optional<double> number(const schema::Value& value) {
   if (const auto* real = std::get_if<double>(&value)) return *real;

@@ -45,6 +45,7 @@ Scene scene_of(const schema::Job& job) {
   add("N", static_cast<double>(job.particles));
   add("equilibrate", job.equilibrate);
   add("sample_every", job.sample_every);
+  if (!job.start.is_uniform()) add("start", schema::start_text(job.start));
   if (!job.sample_at.empty()) add("sample_at", schema::schedule_text(job.sample_at));
   for (const auto& [effect, parameters] : job.effects.by_name()) {
     if (effect == "restitution") add("restitution.law", job.effects.law());

@@ -74,7 +74,7 @@ std::string effect_columns(const Vocabulary& words) {
 constexpr const char* job_columns =
     "jobs.job_id AS job_id, jobs.d AS d, jobs.e AS e, jobs.n AS n, jobs.particles AS particles, "
     "jobs.equilibrate AS equilibrate, jobs.sample_every AS sample_every, "
-    "jobs.sample_at AS sample_at, jobs.effects AS effects, "
+    "jobs.sample_at AS sample_at, jobs.start AS start, jobs.effects AS effects, "
     "jobs.seed AS seed, jobs.tau_max AS tau_max, "
     "jobs.profiles_every AS profiles_every, coalesce(jobs.code_version, '') AS code_version";
 constexpr const char* finished = "kind = 'cooling' AND status = 'done'";

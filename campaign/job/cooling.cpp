@@ -4,7 +4,7 @@
 
 #include "campaign/job/measurement.hpp"
 #include "campaign/job/timetable.hpp"
-#include "engine/initial.hpp"
+#include "campaign/state/first_state.hpp"
 
 namespace haff::campaign {
 
@@ -14,7 +14,7 @@ Ending cool(Attempt& attempt) {
     timetable.skip_through(state->collisions);
     attempt.begin(*state);
   } else {
-    attempt.begin(engine::restarted(attempt.state_of_equilibration()));
+    attempt.begin(first_state(attempt.state_of_equilibration(), attempt.job().start));
   }
 
   while (const auto stop = timetable.next()) {

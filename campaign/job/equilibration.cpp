@@ -30,6 +30,7 @@ NotEquilibrated not_equilibrated(const schema::Sample& sample, const schema::Job
 
 Ending equilibrate(Attempt& attempt) {
   const schema::Job& job = attempt.job();
+  if (job.start.kind == schema::Start::Kind::file) throw StateWasGiven();
   const std::int64_t enough = synchronization_at_or_after(job.equilibrate);
   const std::int64_t too_long =
       synchronization_at_or_after(longest_equilibration * job.equilibrate);
@@ -43,6 +44,7 @@ Ending equilibrate(Attempt& attempt) {
     const double tau = synchronization_tau(k);
     if (!attempt.advance_to(engine::collisions_at(tau, job.particles))) return attempt.leave();
     attempt.sample(tau);
+    if (!job.start.is_equilibrated()) return attempt.finish(tau, std::nullopt);
     const schema::Sample& now = attempt.samples().back();
     if (k >= enough && is_equilibrated(now, job)) return attempt.finish(tau, std::nullopt);
     if (k >= too_long) throw not_equilibrated(now, job);

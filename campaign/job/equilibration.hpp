@@ -19,6 +19,15 @@ struct NotEquilibrated : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The state came from a file, and is damaged now: nothing can compute it.
+struct StateWasGiven : std::runtime_error {
+  StateWasGiven()
+      : std::runtime_error(
+            "its state came from a file, and cannot be computed; plan the grid that names the file "
+            "again, and the state is there again") {}
+};
+
+// Of a crystal: its first state, at once.
 Ending equilibrate(Attempt& attempt);
 
 }  // namespace haff::campaign

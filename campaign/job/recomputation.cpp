@@ -90,6 +90,9 @@ std::string described(const std::optional<schema::Checkpoint>& state) {
 }  // namespace
 
 Recomputation recompute(const schema::Reader& store, const schema::JobRow& row) {
+  if (row.job.kind == schema::Kind::equilibration &&
+      row.job.start.kind == schema::Start::Kind::file)
+    throw StateWasGiven();
   must_be_our_physics(store, row.job_id);
   Recomputation again{.store = schema::Store::in_memory()};
   if (row.equilibration_id) again.store.take_over(store, *row.equilibration_id);

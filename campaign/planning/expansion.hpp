@@ -3,6 +3,9 @@
 // From a grid to jobs: the product of its lists, each job once, with the equilibrations they need.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "schema/grid/grid.hpp"
@@ -10,11 +13,18 @@
 
 namespace haff::campaign {
 
+// A state that a start from a file names (given_states.hpp).
+struct GivenState {
+  std::string digest = {};
+  std::shared_ptr<const schema::Checkpoint> state = {};
+};
+using ReadState = std::function<GivenState(const schema::AskedStart&, const schema::Job&)>;
+
 // Cooling jobs in the order of the grid, each preceded by its equilibration where that is new.
 // A job named twice is one with the larger tau_max and the closer checkpoints.
-std::vector<schema::Planned> expand(const schema::Grid& grid);
+std::vector<schema::Planned> expand(const schema::Grid& grid, const ReadState& read_state = {});
 
 // The targets of each of its series.
-std::vector<schema::Target> targets_of(const schema::Grid& grid);
+std::vector<schema::Target> targets_of(const schema::Grid& grid, const ReadState& read_state = {});
 
 }  // namespace haff::campaign

@@ -55,6 +55,7 @@ std::string alike_but_for_e(schema::Job job) {
 // An equilibration ends where it can be stored.
 double end_of(const schema::Planned& plan) {
   if (plan.job.kind == schema::Kind::cooling) return plan.tau_max;
+  if (plan.job.equilibrate == 0) return 0;
   return synchronization_tau(synchronization_at_or_after(plan.tau_max));
 }
 

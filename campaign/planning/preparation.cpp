@@ -44,8 +44,11 @@ std::string expected(const schema::Preparation& gas) {
 }  // namespace
 
 std::optional<std::string> why_not_prepared(const schema::Preparation& gas) {
-  if (gas.packing <= densest_growth(gas.d)) return std::nullopt;
+  if (!gas.on_lattice && gas.packing <= densest_growth(gas.d)) return std::nullopt;
   if (engine::begins_on_lattice(gas.n, gas.particles, gas.d)) return std::nullopt;
+  if (gas.on_lattice)
+    return fmt::format("{} at n = {} are no crystal: on a lattice they would overlap; {}",
+                       gas.d == 2 ? "disks" : "spheres", number_text(gas.n), expected(gas));
   return fmt::format(
       "{} at n = {} fill {:.2f} of their box: no lattice holds them, and {} that "
       "grow from random points jam before; {}",

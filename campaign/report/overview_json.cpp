@@ -27,6 +27,7 @@ ordered_json physics_json(const schema::Job& job) {
           {"e", or_null(job.e)},
           {"n", job.n},
           {"particles", job.particles},
+          {"start", ordered_json::parse(schema::start_text(job.start))},
           {"equilibrate", job.equilibrate},
           {"sample_every", job.sample_every},
           {"sample_at", job.sample_at.empty()

@@ -32,12 +32,14 @@ std::int64_t integer(const schema::Value& value) {
   return std::get<std::int64_t>(value);
 }
 
-// Rows of smooth spheres with constant restitution, sampled at equal intervals as the paper's.
-constexpr const char* plain_gas = " d = 3 AND effects = '{}' AND sample_at IS NULL";
+// Rows of smooth spheres with constant restitution, started and sampled as the paper's.
+constexpr const char* plain_gas =
+    " d = 3 AND effects = '{}' AND sample_at IS NULL AND start IS NULL";
 
 // Of the same with velocities shuffled.
 constexpr const char* shuffled_gas =
-    " d = 3 AND sample_at IS NULL AND (SELECT group_concat(key) FROM json_each(effects)) = "
+    " d = 3 AND sample_at IS NULL AND start IS NULL AND (SELECT group_concat(key) FROM "
+    "json_each(effects)) = "
     "'shuffle'";
 
 // What tells means apart: the identity of a job but its seed and what it observes. Of the columns

@@ -78,6 +78,7 @@ class Rest {
  private:
   static std::map<std::string, std::string> values(const schema::Job& job) {
     return {{"sample_every", number_text(job.sample_every)},
+            {"start", schema::start_text(job.start)},
             {"equilibrate", number_text(job.equilibrate)},
             {"observables", schema::observables_text(job.observables)},
             {"profiles_every", job.profiles_every ? number_text(*job.profiles_every) : "none"},

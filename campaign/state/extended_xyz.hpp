@@ -12,8 +12,11 @@
 // the other, are a trajectory.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "engine/state.hpp"
 
@@ -24,5 +27,20 @@ void write_xyz(const engine::State& state, const std::string& facts, std::ostrea
 
 // As a value in that line: a text in quotes.
 std::string quoted_for_xyz(const std::string& text);
+
+// What a file says, in the order of its lines. Columns that it does not have are empty.
+struct Frame {
+  std::array<double, 3> side{};    // of the cell, whose axes are x, y and z [sigma]
+  std::array<double, 3> origin{};  // of the cell
+  std::array<bool, 3> is_periodic{true, true, true};
+  std::vector<engine::Vector> position, velocity, angular_velocity;
+  std::vector<double> radius, mass;
+  std::vector<std::string> species;
+  std::vector<std::uint32_t> id;
+};
+
+// Reads one gas, with columns in any order: pos and velo (or vel) must be there, and all of these
+// numbers finite. Throws std::invalid_argument, naming the line, if it is none, or several.
+Frame read_xyz(std::istream& in);
 
 }  // namespace haff::campaign

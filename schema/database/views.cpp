@@ -15,7 +15,8 @@ namespace {
 
 // A gas and how it is sampled: jobs that agree in these and in the seed are one realization,
 // whatever they observe.
-constexpr const char* gas = "e, n, particles, d, equilibrate, sample_every, sample_at, effects";
+constexpr const char* gas =
+    "e, n, particles, d, start, equilibrate, sample_every, sample_at, effects";
 
 // What is averaged, and where it stands.
 struct Source {
@@ -65,11 +66,11 @@ WITH
     WINDOW realization AS (PARTITION BY {gas}{place} ORDER BY seed
                            ROWS BETWEEN UNBOUNDED PRECEDING AND UNBOUNDED FOLLOWING)
   )
-SELECT d, e, n, particles, equilibrate, sample_every, sample_at, effects{place},
+SELECT d, e, n, particles, start, equilibrate, sample_every, sample_at, effects{place},
        realizations{counts}{results}
 FROM errors
 WHERE row_of_mean = 1
-ORDER BY d, n, particles, e, equilibrate, sample_every, sample_at, effects{place})",
+ORDER BY d, n, particles, e, start, equilibrate, sample_every, sample_at, effects{place})",
       fmt::arg("view", source.view), fmt::arg("gas", gas), fmt::arg("place", place),
       fmt::arg("table_place", list(source.place, fmt::format(", {}.{{0}}", source.table))),
       fmt::arg("table", source.table), fmt::arg("where", source.where),
@@ -94,8 +95,8 @@ std::string series_view() {
   for (const SampleColumn& column : sample_columns) columns += fmt::format(", {}", column.name);
   return fmt::format(
       R"(CREATE VIEW series AS
-SELECT job_id, kind, status, d, e, n, particles, seed, equilibrate, sample_every, sample_at, effects,
-       tau_max, tau, time{}
+SELECT job_id, kind, status, d, e, n, particles, seed, start, equilibrate, sample_every, sample_at,
+       effects, tau_max, tau, time{}
 FROM jobs CROSS JOIN samples USING (job_id))",
       columns);
 }

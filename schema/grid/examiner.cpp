@@ -195,6 +195,25 @@ class Examiner {
     }
   }
 
+  // A start that goes with the other keys.
+  void can_start(const Source& source) const {
+    const Placed seeds = source["seeds"];
+    const bool has_several_seeds =
+        seeds.value.is_number() ? seeds.value.get<double>() > 1 : seeds.value.size() > 1;
+    bool is_equilibrated = false;
+    for (const Placed& start : items(source["start"])) {
+      const bool is_file = start.value.is_object() && start.value.contains("file");
+      is_equilibrated = is_equilibrated || !(is_file || start.value == "crystal");
+      if (is_file && has_several_seeds) tells_seeds_apart(source, start);
+    }
+    const auto equilibrate = source.find("equilibrate");
+    if (!is_equilibrated && source.is_given("equilibrate"))
+      throw fault(file_, equilibrate->where,
+                  shown(equilibrate->value) +
+                      " does not go together with \"start\": " + shown(source["start"].value) +
+                      ", which is not equilibrated; expected a grid without it");
+  }
+
   // Collisions are counted in whole numbers that a double holds exactly.
   void can_count_collisions(const Source& source, const std::vector<double>& tau_max) const {
     const double longest = *std::max_element(tau_max.begin(), tau_max.end());
@@ -279,6 +298,7 @@ class Examiner {
             file_, where,
             "is not measured; expected \"" + observable + "\" among the observables of this grid");
       if (quantity[0] != 'a') cools_by_haff(source, where);
+      if (quantity[0] != 'a') starts_by_haff(source, where);
       if (wish.contains("tau")) within_run(source, where / "tau", wish["tau"], tau_max);
     }
   }
@@ -289,7 +309,7 @@ class Examiner {
     for (const Source& source : sources) {
       double product = std::max<double>(1, static_cast<double>(source.e().size())) *
                        count_expanded(source["effects"].value);
-      for (const char* key : {"d", "n", "N", "equilibrate", "sample_every"})
+      for (const char* key : {"d", "n", "N", "start", "equilibrate", "sample_every"})
         product *= static_cast<double>(items(source[key]).size());
       const Placed seeds = source["seeds"];
       product *= seeds.value.is_number() ? seeds.value.get<double>()
@@ -303,6 +323,17 @@ class Examiner {
   }
 
  private:
+  // Realizations that start from one state differ by what their effects draw at random.
+  void tells_seeds_apart(const Source& source, const Placed& start) const {
+    for (const Json& one : expanded(source["effects"].value))
+      if (!one.contains("shuffle") && !one.contains("thermostat"))
+        throw fault(file_, source["seeds"].where,
+                    shown(source["seeds"].value) +
+                        " makes realizations that are all the same: they "
+                        "start from " +
+                        shown(start.value) + ", and nothing in them is random; expected one seed");
+  }
+
   void on_axis_of_tau(const Source& source, const Placed& moments, double longest) const {
     const auto within_run = [&](const Placed& item) {
       if (item.value.get<double>() > longest)
@@ -344,6 +375,17 @@ class Examiner {
             file_, where,
             "does not exist with " + *effect +
                 ", which changes Haff's law; expected a grid without it, or another target");
+  }
+
+  void starts_by_haff(const Source& source, const Pointer& where) const {
+    for (const Placed& start : items(source["start"])) {
+      const std::string text = start.value.dump();
+      for (const char* name : {"shear wave", "two temperatures"})
+        if (text.find(name) != std::string::npos)
+          throw fault(file_, where,
+                      "does not exist where a gas starts as " + shown(start.value) +
+                          ": Haff's law is of a uniform one; expected another start or target");
+    }
   }
 
   void within_run(const Source& source, const Pointer& where, const Json& window,
@@ -419,8 +461,11 @@ class Examiner {
     for (const Placed& particles : items(source["N"])) {
       const auto N = static_cast<std::uint32_t>(particles.value.get<double>());
       const bool is_mixed = mixture.fraction > 0 && mixture.diameter_ratio < 1;
-      if (const auto why = cannot_start_({d, n, N, packing, is_mixed}))
-        throw fault(file_, particles.where, shown(particles.value) + " " + *why);
+      for (const Placed& start : items(source["start"])) {
+        if (start.value.is_object() && start.value.contains("file")) continue;  // it is prepared
+        if (const auto why = cannot_start_({d, n, N, packing, is_mixed, start.value == "crystal"}))
+          throw fault(file_, particles.where, shown(particles.value) + " " + *why);
+      }
     }
   }
 
@@ -541,6 +586,7 @@ ExaminedGrid examine(const Json& document, const std::string& file, const Memory
     examiner.complete(source);
     examiner.can_be_counted(source);
     examiner.go_together(source);
+    examiner.can_start(source);
   }
   examiner.no_strays(grid.sources);
   for (const Source& source : grid.sources) {

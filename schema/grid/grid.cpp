@@ -78,6 +78,38 @@ Schedule schedule(const Source& source, const std::string& key) {
           .time = value.contains("time") ? moments(value["time"]) : Moments{}};
 }
 
+AskedStart asked_start(const Placed& placed, const std::string& file) {
+  const Json& value = placed.value;
+  AskedStart asked;
+  const auto parameters = [&](const char* name) -> std::optional<Json> {
+    if (value == name) return Json::object();
+    return value.is_object() && value.contains(name) ? std::optional(value[name]) : std::nullopt;
+  };
+  if (value == "crystal") asked.start.kind = Start::Kind::crystal;
+  if (const auto wave = parameters("shear wave")) {
+    asked.start.kind = Start::Kind::shear_wave;
+    asked.start.amplitude = wave->value("amplitude", usual_amplitude);
+    asked.start.waves = static_cast<int>(wave->value("waves", static_cast<double>(usual_waves)));
+  }
+  if (const auto temperatures = parameters("two temperatures")) {
+    asked.start.kind = Start::Kind::two_temperatures;
+    asked.start.ratio = temperatures->value("ratio", usual_ratio);
+  }
+  if (value.is_object() && value.contains("file")) {
+    asked.start.kind = Start::Kind::file;
+    // Beside the grid, as a grid and what it names are moved together.
+    asked.file = std::filesystem::path(file).parent_path() / value["file"].get<std::string>();
+    asked.place = file + ": " + (placed.where / "file").to_string();
+  }
+  return asked;
+}
+
+std::vector<AskedStart> starts(const Source& source, const std::string& file) {
+  std::vector<AskedStart> all;
+  for (const Placed& item : items(source["start"])) all.push_back(asked_start(item, file));
+  return all;
+}
+
 std::vector<Effects> effects(const Placed& placed) {
   std::vector<Effects> all;
   for (Json& one : expanded(placed.value)) {
@@ -89,7 +121,7 @@ std::vector<Effects> effects(const Placed& placed) {
   return all;
 }
 
-SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {
+SubGrid sub_grid(const Source& source, std::vector<double> tau_max, const std::string& file) {
   SubGrid grid{.d = source.list<int>("d"),
                .e = source.e(),
                .n = source.list<double>("n"),
@@ -98,6 +130,7 @@ SubGrid sub_grid(const Source& source, std::vector<double> tau_max) {
                .tau_max = std::move(tau_max),
                .sample_every = source.list<double>("sample_every"),
                .sample_at = schedule(source, "sample_at"),
+               .starts = starts(source, file),
                .equilibrate = source.list<double>("equilibrate"),
                .checkpoint_every = source["checkpoint_every"].value.get<double>(),
                .observables = source.observables(),
@@ -126,7 +159,7 @@ Grid parse_grid(std::string_view text, const std::string& file, const Memory& me
   ExaminedGrid examined = examine(document, file, memory, cannot_start);
   Grid grid{.name = document.value("name", ""), .grids = {}};
   for (std::size_t k = 0; k < examined.sources.size(); ++k)
-    grid.grids.push_back(sub_grid(examined.sources[k], std::move(examined.tau_max[k])));
+    grid.grids.push_back(sub_grid(examined.sources[k], std::move(examined.tau_max[k]), file));
   return grid;
 }
 

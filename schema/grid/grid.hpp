@@ -14,6 +14,7 @@
 
 #include "schema/grid/effects.hpp"
 #include "schema/grid/moments.hpp"
+#include "schema/grid/start.hpp"
 #include "schema/grid/target.hpp"
 
 namespace haff::schema {
@@ -35,6 +36,7 @@ struct SubGrid {
   std::vector<double> tau_max;  // as long as e, or one: how far each is run [collisions/particle]
   std::vector<double> sample_every;
   Schedule sample_at;
+  std::vector<AskedStart> starts;
   std::vector<double> equilibrate;
   double checkpoint_every = 0;
   std::vector<std::string> observables;  // sorted
@@ -61,8 +63,9 @@ struct Preparation {
   int d = 3;
   double n = 0;
   std::uint32_t particles = 0;
-  double packing = 0;     // the part of the volume that the particles fill
-  bool is_mixed = false;  // whether particles differ in size
+  double packing = 0;       // the part of the volume that the particles fill
+  bool is_mixed = false;    // whether particles differ in size
+  bool on_lattice = false;  // whether it must be a lattice: the start is a crystal
 };
 
 // Why a gas cannot be prepared, e.g. "particles ... ; expected ...", or nothing if it can. Only a

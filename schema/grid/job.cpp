@@ -56,7 +56,13 @@ Job equilibration_of(const Job& cooling) {
   job.fields_at.clear();
   job.sample_at = {};
   job.snapshots_at = {};
+  if (job.start.is_equilibrated()) job.start = {};
+  if (job.start.kind == Start::Kind::file) job.seed = 0;
   return job;
+}
+
+double tau_max_of_equilibration(const Job& equilibration) {
+  return std::max(equilibration.equilibrate, equilibration_sample_every);
 }
 
 Job unobserved(Job job) {
@@ -88,11 +94,11 @@ std::string identity(const Job& job) {
          R"(,"sample_every":)" + real(job.sample_every) +  //
          R"(,"seed":)" + std::to_string(job.seed) +        //
          (job.snapshots_at.empty() ? "" : R"(,"snapshots_at":)" + schedule_text(job.snapshots_at)) +
-         "}";
+         (job.start.is_uniform() ? "" : R"(,"start":)" + start_text(job.start)) + "}";
 }
 
 bool cools_by_haff(const Job& job) {
-  return job.e.has_value() && !beyond_haffs_law(job.effects);
+  return job.e.has_value() && !beyond_haffs_law(job.effects) && !job.start.is_driven_apart();
 }
 
 std::string series_identity(Job job) {

@@ -16,6 +16,7 @@
 
 #include "schema/grid/effects.hpp"
 #include "schema/grid/moments.hpp"
+#include "schema/grid/start.hpp"
 
 namespace haff::schema {
 
@@ -57,7 +58,8 @@ struct Job {
   double n = 0;                 // number density [sigma^-d]
   std::uint32_t particles = 0;  // N
   std::uint64_t seed = 0;       // realization, 0 ... 2^53 - 1
-  double equilibrate = 50;      // elastic collisions per particle before cooling
+  Start start = {};             // of an equilibration: how it begins, if there is none to run
+  double equilibrate = 50;      // elastic collisions per particle before cooling; 0: none
   double sample_every = 1;      // samples are taken at tau = k sample_every
   Schedule sample_at = {};      // and at these moments
   Effects effects = {};
@@ -75,18 +77,22 @@ inline constexpr double equilibration_sample_every = 10;
 
 // The equilibration a cooling job starts from: the same gas at e = 1, which depends on
 // (d, n, particles, seed, equilibrate) and the effects that matter at e = 1. It runs to
-// tau_max = equilibrate and measures temperature and laguerre.
+// tau_max = equilibrate and measures temperature and laguerre. Where the start is a crystal or a
+// file there is nothing to run: the job holds the state, one for all seeds of a file.
 Job equilibration_of(const Job& cooling);
+double tau_max_of_equilibration(const Job& equilibration);
 
 // The text that names a job: its physics as JSON, keys sorted, no spaces, reals in the shortest
-// form that reads back as the same double, observables sorted; profiles_every, fields_at, sample_at
-// and snapshots_at are there only in a job that has them. The text itself is the identity,
-// not a hash of it: two jobs are the same exactly if their texts are equal, a person can read
-// what differs, and the 200 bytes it takes are nothing beside a job's samples.
+// form that reads back as the same double, observables sorted; profiles_every, fields_at,
+// sample_at, snapshots_at and a start that is not uniform are there only in a job that has them.
+// The text itself is the identity, not a hash of it: two jobs are the same exactly if their texts
+// are equal, a person can read what differs, and the 200 bytes it takes are nothing beside a job's
+// samples.
 std::string identity(const Job& job);
 
 // Whether Haff's law says how it cools, so that gamma_ratio and tau_c have a meaning: smooth equal
-// spheres lose energy by a constant e, and gain none.
+// spheres lose energy by a constant e, and gain none; at the start they do not flow, and are
+// nowhere hotter than elsewhere.
 bool cools_by_haff(const Job& job);
 
 // The job without what it observes: neither observables nor profiles, fields or snapshots. Jobs

@@ -69,6 +69,10 @@ std::optional<Placed> Source::find(const std::string& key) const {
   return std::nullopt;
 }
 
+bool Source::is_given(const std::string& key) const {
+  return document_.contains(where_ / key) || document_.contains(Pointer() / key);
+}
+
 std::vector<std::string> Source::observables() const {
   std::vector<std::string> names;
   for (const Placed& item : items((*this)["observables"]))

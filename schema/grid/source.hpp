@@ -42,6 +42,7 @@ class Source {
 
   std::optional<Placed> find(const std::string& key) const;
   Placed operator[](const std::string& key) const { return find(key).value(); }
+  bool is_given(const std::string& key) const;  // not by default alone
 
   template <class Number>
   std::vector<Number> list(const std::string& key) const {

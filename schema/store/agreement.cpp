@@ -115,7 +115,7 @@ void must_agree_with_same_physics(Database& database, std::int64_t job_id) {
            other.sample_every = own.sample_every AND other.sample_at IS own.sample_at
     FROM jobs AS own JOIN jobs AS other ON other.equilibration_id = own.equilibration_id
     WHERE own.job_id = ? AND other.job_id <> own.job_id AND other.status = 'done'
-          AND other.e IS own.e AND other.effects = own.effects
+          AND other.e IS own.e AND other.effects = own.effects AND other.start IS own.start
           AND other.physics_version IS own.physics_version)");
   others.bind(1, job_id);
   std::optional<std::vector<Sample>> samples;

@@ -27,7 +27,7 @@ constexpr Table tables[] = {
     {"target_outcomes", "SELECT * FROM target_outcomes"},
     {"job_effects", "SELECT * FROM job_effects"},
     {"jobs",
-     "SELECT job_id, kind, d, e, n, particles, seed, equilibrate, sample_every, sample_at, "
+     "SELECT job_id, kind, d, e, n, particles, seed, start, equilibrate, sample_every, sample_at, "
      "effects, "
      "observables, tau_max, status, attempts, error, tau_reached, collisions, cpu_seconds, "
      "expected_cpu_seconds, created, started, finished, code_version, host FROM jobs"},

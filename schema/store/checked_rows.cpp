@@ -45,6 +45,11 @@ Schedule schedule(const SQLite::Statement& row, const char* column) {
   return canonical(row, column, schedule_in, schedule_text);
 }
 
+Start start(const SQLite::Statement& row) {
+  if (row.isColumnNull("start")) return {};
+  return canonical(row, "start", start_in, start_text);
+}
+
 // A kind or a status by its name.
 template <class Named>
 auto named(const SQLite::Statement& row, const char* column, Named&& known) {
@@ -71,7 +76,8 @@ Job job_of(const SQLite::Statement& row) {
           .n = positive(row, "n"),
           .particles = static_cast<std::uint32_t>(integer(row, "particles", 2, most_particles)),
           .seed = static_cast<std::uint64_t>(integer(row, "seed", 0, largest_whole)),
-          .equilibrate = positive(row, "equilibrate"),
+          .start = start(row),
+          .equilibrate = not_negative(row, "equilibrate"),
           .sample_every = positive(row, "sample_every"),
           .sample_at = schedule(row, "sample_at"),
           .effects = effects(row),

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <span>
 #include <stdexcept>
 
 #include "schema/database/database.hpp"
@@ -14,6 +13,7 @@
 #include "schema/store/bind.hpp"
 #include "schema/store/checked_rows.hpp"
 #include "schema/store/lease.hpp"
+#include "schema/store/state_rows.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {
@@ -111,17 +111,6 @@ void insert(Database& database, const Lease& lease, const std::vector<Field>& fi
   }
 }
 
-// Cut into BLOBs: `insert` has places for the position and the bytes from `first` on.
-void insert_chunks(SQLite::Statement& insert, int first, std::span<const std::byte> state) {
-  for (std::size_t begin = 0; begin < state.size(); begin += chunk_bytes) {
-    const auto chunk = state.subspan(begin, std::min(chunk_bytes, state.size() - begin));
-    insert.reset();
-    insert.bind(first, static_cast<std::int64_t>(begin / chunk_bytes));
-    insert.bindNoCopy(first + 1, chunk.data(), static_cast<int>(chunk.size()));
-    insert.exec();
-  }
-}
-
 // A snapshot that is there already must be this one, in every bit.
 void insert(Database& database, const Lease& lease, const Snapshot& snapshot, std::uint64_t sum) {
   const DigestedTable& table = database.digests().table(Part::snapshots);
@@ -148,27 +137,7 @@ void insert(Database& database, const Lease& lease, const Snapshot& snapshot, st
 
 void replace(Database& database, const Lease& lease, const Checkpoint& checkpoint,
              std::uint64_t sum) {
-  Prepared drop(database, "DELETE FROM checkpoint_chunks WHERE job_id = ?");
-  drop.bind(1, lease.job_id);
-  drop.exec();
-
-  Prepared header(
-      database,
-      "INSERT OR REPLACE INTO checkpoints (job_id, tau, collisions, bytes, checksum, created) "
-      "VALUES (?, ?, ?, ?, ?, " +
-          now + ")");
-  header.bind(1, lease.job_id);
-  header.bind(2, checkpoint.tau);
-  header.bind(3, checkpoint.collisions);
-  header.bind(4, static_cast<std::int64_t>(checkpoint.state.size()));
-  header.bind(5, static_cast<std::int64_t>(sum));
-  header.exec();
-
-  Prepared insert(database,
-                  "INSERT INTO checkpoint_chunks (job_id, position, bytes) VALUES (?, ?, ?)");
-  insert.bind(1, lease.job_id);
-  insert_chunks(insert, 2, checkpoint.state);
-
+  put_state(database, lease.job_id, checkpoint, sum);
   Prepared progress(database, "UPDATE jobs SET attempts = 0, starts_over = 0 WHERE job_id = ?");
   progress.bind(1, lease.job_id);
   progress.exec();

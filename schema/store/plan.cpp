@@ -4,9 +4,11 @@
 #include <stdexcept>
 
 #include "schema/database/database.hpp"
+#include "schema/digests/checksum.hpp"
 #include "schema/store/bind.hpp"
 #include "schema/store/checked_rows.hpp"
 #include "schema/store/claiming.hpp"
+#include "schema/store/state_rows.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {
@@ -33,11 +35,11 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
       sqlite,
       "INSERT INTO jobs (identity, kind, d, e, n, particles, seed, equilibrate, "
       "sample_every, sample_at, effects, observables, profiles_every, fields_at, snapshots_at, "
-      "tau_max, checkpoint_every, "
+      "start, tau_max, checkpoint_every, "
       "equilibration_id, expected_cpu_seconds, created) "
       "VALUES (:identity, :kind, :d, :e, :n, :particles, :seed, :equilibrate, "
       ":sample_every, :sample_at, :effects, :observables, :profiles_every, :fields_at, "
-      ":snapshots_at, :tau_max, :checkpoint_every, "
+      ":snapshots_at, :start, :tau_max, :checkpoint_every, "
       ":equilibration_id, :expected_cpu_seconds, " +
           now + ")");
   const Job& job = planned.job;
@@ -56,6 +58,7 @@ void insert(SQLite::Database& sqlite, const Planned& planned) {
   if (!job.fields_at.empty()) statement.bind(":fields_at", fields_at_text(job.fields_at));
   if (!job.sample_at.empty()) statement.bind(":sample_at", schedule_text(job.sample_at));
   if (!job.snapshots_at.empty()) statement.bind(":snapshots_at", schedule_text(job.snapshots_at));
+  if (!job.start.is_uniform()) statement.bind(":start", start_text(job.start));
   statement.bind(":tau_max", planned.tau_max);
   statement.bind(":checkpoint_every", planned.checkpoint_every);
   if (const auto id = equilibration_id(sqlite, job)) statement.bind(":equilibration_id", *id);
@@ -77,6 +80,21 @@ void extend(SQLite::Database& sqlite, const Planned& planned) {
   statement.exec();
 }
 
+// The equilibration of a start from a file has nothing to do: it holds the state. Planned again, it
+// has it again, if that was damaged meanwhile.
+void give_state(Database& database, const Planned& planned, bool is_new) {
+  SQLite::Database& sqlite = database.sqlite();
+  const std::int64_t job_id = id_of(sqlite, planned.job).value();
+  if (!is_new) database.digests().must_match(job_id, Part::jobs);
+  SQLite::Statement done(sqlite,
+                         "UPDATE jobs SET status = 'done', starts_over = 0, attempts = 0, "
+                         "error = NULL, finished = " +
+                             now + " WHERE job_id = ? AND status IN ('pending', 'failed', 'done')");
+  done.bind(1, job_id);
+  if (done.exec() == 0) return;  // a worker or a shard has it
+  put_state(database, job_id, *planned.given_state, checksum(planned.given_state->state));
+}
+
 }  // namespace
 
 Outcome add_or_extend(Database& database, const Planned& planned) {
@@ -87,6 +105,7 @@ Outcome add_or_extend(Database& database, const Planned& planned) {
     database.digests().must_match(id_of(sqlite, planned.job).value(), Part::jobs);
     extend(sqlite, planned);
   }
+  if (planned.given_state) give_state(database, planned, what == Outcome::added);
   return what;
 }
 

@@ -106,12 +106,12 @@ Summary summary_of(SQLite::Database& sqlite, const std::string& of_jobs) {
     summary.remaining_cpu_seconds += real(jobs, "remaining");
   }
   SQLite::Statement pending(sqlite, R"(
-    SELECT coalesce(equilibration.status, 'done') AS start, count(*) AS number
+    SELECT coalesce(equilibration.status, 'done') AS status_of_start, count(*) AS number
     FROM )" + of_jobs + R"( AS waiting
     LEFT JOIN jobs AS equilibration ON equilibration.job_id = waiting.equilibration_id
-    WHERE waiting.status = 'pending' GROUP BY start)");
+    WHERE waiting.status = 'pending' GROUP BY status_of_start)");
   while (pending.executeStep()) {
-    const Status start = status_named(text(pending, "start"));
+    const Status start = status_named(text(pending, "status_of_start"));
     auto& count = start == Status::done                                  ? summary.claimable
                   : start == Status::lent                                ? summary.elsewhere
                   : start == Status::pending || start == Status::running ? summary.waiting
@@ -149,7 +149,7 @@ std::vector<JobRow> Reader::jobs() const {
   return database_->guarded([&] {
     SQLite::Statement statement(database_->sqlite(), R"(
       SELECT * FROM jobs
-      ORDER BY kind DESC, d, n, particles, e, equilibrate, sample_every, effects,
+      ORDER BY kind DESC, d, n, particles, e, start, equilibrate, sample_every, effects,
                observables, profiles_every, fields_at, sample_at, snapshots_at, seed)");
     std::vector<JobRow> rows;
     while (statement.executeStep()) rows.push_back(row_of_job(statement));

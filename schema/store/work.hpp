@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ struct Planned {
   double tau_max = 0;
   double checkpoint_every = 10;
   std::optional<double> expected_cpu_seconds = {};  // to reach tau_max from the start
+  // The state that a start from a file is: its equilibration is then done, and holds it.
+  std::shared_ptr<const Checkpoint> given_state = {};
 };
 
 // What became, or would become, of one planned job. extended: it was there with a smaller

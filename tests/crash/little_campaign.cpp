@@ -29,7 +29,7 @@ std::string grid(double tau_max, int seeds) {
     {{"shuffle": {{"every": 2}}}},
     {{"restitution": {{"law": "threshold", "speed": 0.1}}}}]}},
   {{"effects": {{"restitution": {{"law": "viscoelastic", "A": 0.1}}}}}},
-  {{"e": 0.9, "d": 2}}]}})",
+  {{"e": 0.9, "d": 2, "start": ["crystal", "shear wave"]}}]}})",
                      tau_max, seeds);
 }
 

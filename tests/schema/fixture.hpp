@@ -29,7 +29,7 @@ inline std::vector<Planned> plan(const std::vector<Job>& jobs, double tau_max = 
     const Job start = equilibration_of(job);
     bool known = false;
     for (const Planned& planned : all) known = known || planned.job == start;
-    if (!known) all.push_back({.job = start, .tau_max = start.equilibrate});
+    if (!known) all.push_back({.job = start, .tau_max = tau_max_of_equilibration(start)});
     all.push_back({.job = job, .tau_max = tau_max});
   }
   return all;

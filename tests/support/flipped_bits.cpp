@@ -40,7 +40,7 @@ constexpr const char* every_effect_and_observable = R"(
                            {"mixture": {"fraction": 0.5, "diameter_ratio": 0.8, "mass_ratio": 0.1}}]},
     {"effects": [{"restitution": {"law": "viscoelastic", "A": 0.1}},
                  {"restitution": {"law": "plastic", "speed": 0.1}}]},
-    {"d": 2, "e": 0.9}]})";
+    {"d": 2, "e": 0.9, "start": ["uniform", "crystal", "shear wave", "two temperatures"]}]})";
 
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -23,7 +23,7 @@ std::vector<schema::Planned> realization(const schema::JobRow& like, std::uint64
   job.seed = seed;
   std::vector<schema::Planned> plan{
       {.job = schema::equilibration_of(job),
-       .tau_max = job.equilibrate,
+       .tau_max = tau_max_of_equilibration(schema::equilibration_of(job)),
        .checkpoint_every = like.checkpoint_every},
       {.job = job, .tau_max = like.tau_max, .checkpoint_every = like.checkpoint_every}};
   if (store.find(plan.front().job)) plan.erase(plan.begin());

@@ -12,9 +12,11 @@ std::string describe(const schema::Job& job) {
   const std::string disks = job.d == 2 ? "d=2 " : "";
   const std::string gas = disks + fmt::format("n={} N={} seed {}", job.n, job.particles, job.seed);
   const std::string effects = job.effects.none() ? "" : " " + job.effects.text();
-  if (job.kind == schema::Kind::equilibration) return "equilibration " + gas;
+  const std::string start = job.start.is_uniform() ? "" : " start " + schema::start_text(job.start);
+  if (job.kind == schema::Kind::equilibration)
+    return (job.start.is_equilibrated() ? "equilibration " : "preparation ") + gas + start;
   const std::string e = job.e ? fmt::format("e={} ", *job.e) : "";
-  return fmt::format("cooling {}{}{}", e, gas, effects);
+  return fmt::format("cooling {}{}{}{}", e, gas, effects, start);
 }
 
 std::string e_text(const schema::Job& job) {

@@ -39,6 +39,10 @@ Further samples, 20 a decade of tau, and the whole gas at three of them, for exp
   { "e": 0.9, "n": 0.4, "N": 32000, "seeds": 2, "tau_max": 180,
     "sample_at": {"log": 20}, "snapshots_at": [1, 10, 100] }
 
+Other starts than the equilibrated gas, a series each; the last is what `export` has written:
+  { "e": 0.9, "n": 0.4, "N": 32000, "seeds": 1, "tau_max": 50,
+    "start": ["crystal", "shear wave", "two temperatures", {"file": "gas.xyz"}] }
+
 A standard error instead of a number of seeds; those given are pilot runs, `run` adds to them:
   { "e": 0.9, "n": 0.4, "N": 8000, "seeds": 5, "tau_max": 15,
     "target": {"a2": {"tau": [5, 15], "se": 1e-3}} })"));

@@ -23,6 +23,7 @@
 #include "campaign/commands/run/plan_outcome.hpp"
 #include "campaign/planning/expansion.hpp"
 #include "campaign/planning/forecast.hpp"
+#include "campaign/planning/given_states.hpp"
 #include "campaign/planning/preparation.hpp"
 #include "campaign/run/abandoned.hpp"
 #include "schema/grid/grid.hpp"
@@ -198,8 +199,12 @@ PlanOutcome plan_into_store(std::vector<Planned>& jobs, const std::vector<schema
 
 int plan(const PlanOptions& options) {
   const schema::Grid grid = schema::read_grid(options.grid, machine_memory(), why_not_prepared);
-  std::vector<Planned> jobs = expand(grid);
-  PlanOutcome outcome = plan_into_store(jobs, targets_of(grid), options);
+  GivenStates given;
+  const auto read_state = [&](const schema::AskedStart& asked, const schema::Job& job) {
+    return given.state_of(asked, job);
+  };
+  std::vector<Planned> jobs = expand(grid, read_state);
+  PlanOutcome outcome = plan_into_store(jobs, targets_of(grid, read_state), options);
   const std::string again = fmt::format("plan {}{}", options.replace ? "--replace " : "",
                                         shell_word(options.grid.string()));
   outcome.next = command_text(options.dry_run ? again : "run", options.store);

@@ -71,7 +71,8 @@ std::string memory_warning(double memory) {
 
 void add_boxes(const std::vector<Planned>& jobs, PlanOutcome& found) {
   std::set<std::tuple<int, double, double, std::uint32_t>> seen;
-  for (const auto& [job, tau_max, checkpoint_every, expected] : jobs) {
+  for (const Planned& planned : jobs) {
+    const schema::Job& job = planned.job;
     const bool is_plain = job.kind == schema::Kind::cooling && job.e && job.effects.none();
     if (!is_plain || !seen.emplace(job.d, *job.e, job.n, job.particles).second) continue;
     const auto report = box_report(job);

@@ -71,6 +71,12 @@ bool agree(const schema::Results& one, const schema::Results& other) {
 
 void check_complete(const Reader& store, const JobRow& row, const std::vector<Sample>& samples,
                     Texts& faults) {
+  const schema::Start& start = row.job.start;
+  if (row.job.kind == schema::Kind::equilibration && !start.is_equilibrated()) {
+    if (start.kind == schema::Start::Kind::crystal && samples.empty())
+      faults.emplace_back("done, but has no sample");
+    return;
+  }
   const std::int64_t expected = sample_count(row.job, row.tau_max);
   if (static_cast<std::int64_t>(samples.size()) < expected)
     faults.push_back(fmt::format("done, but has {} of {} samples", samples.size(), expected));

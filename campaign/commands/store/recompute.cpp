@@ -83,7 +83,11 @@ std::vector<JobRow> chosen(const schema::Reader& store, const Choice& choice) {
     return {row};
   }
   std::vector<JobRow> rows = store.jobs();
-  std::erase_if(rows, [](const JobRow& row) { return !is_finished(row); });
+  const auto is_given = [](const JobRow& row) {
+    return row.job.kind == schema::Kind::equilibration &&
+           row.job.start.kind == schema::Start::Kind::file;
+  };
+  std::erase_if(rows, [&](const JobRow& row) { return !is_finished(row) || is_given(row); });
   if (!rows.empty()) keep_some(rows, choice.percent);
   return rows;
 }

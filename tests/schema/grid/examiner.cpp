@@ -24,7 +24,7 @@ TEST_CASE("an unknown key is named with the nearest known one") {
       "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
       "\"observables\", "
       "\"profiles_every\", \"sample_at\", \"sample_every\", \"seeds\", \"snapshots_at\", "
-      "\"target\", \"tau_max\"");
+      "\"start\", \"target\", \"tau_max\"");
   check_complaint(R"({"E": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 1})",
                   "g.json: /E: unknown key; did you mean \"e\"?");
   check_complaint(
@@ -33,7 +33,7 @@ TEST_CASE("an unknown key is named with the nearest known one") {
       "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", \"name\", "
       "\"observables\", "
       "\"profiles_every\", \"sample_at\", \"sample_every\", \"seeds\", \"snapshots_at\", "
-      "\"target\", \"tau_max\"");
+      "\"start\", \"target\", \"tau_max\"");
 }
 
 TEST_CASE("a key of earlier versions is refused with the reason") {

@@ -77,7 +77,7 @@ TEST_CASE("$schema and keys that begin with _ are for editors and notes") {
                   "g.json: /$schem: unknown key; expected one of \"N\", \"checkpoint_every\", "
                   "\"d\", \"e\", \"effects\", \"equilibrate\", \"fields_at\", \"grids\", \"n\", "
                   "\"name\", \"observables\", \"profiles_every\", \"sample_at\", \"sample_every\", "
-                  "\"seeds\", \"snapshots_at\", \"target\", \"tau_max\"");
+                  "\"seeds\", \"snapshots_at\", \"start\", \"target\", \"tau_max\"");
 }
 
 TEST_CASE("a number too small for a double is named so") {

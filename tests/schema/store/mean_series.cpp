@@ -179,7 +179,7 @@ TEST_CASE("averages do not depend on the order of jobs, to the last bit") {
 }
 
 TEST_CASE("every part of the physics but the seed makes a series of its own") {
-  std::vector<Job> jobs(8, cooling());
+  std::vector<Job> jobs(9, cooling());
   jobs[1].e = 0.9;
   jobs[2].n = 0.5;
   jobs[3].particles = 2000;
@@ -187,6 +187,7 @@ TEST_CASE("every part of the physics but the seed makes a series of its own") {
   jobs[5].sample_every = 2;
   jobs[6].effects = R"({"shuffle":{"every":1}})";
   jobs[7].sample_at.tau.listed = {0.5};
+  jobs[8].start = {.kind = Start::Kind::shear_wave, .amplitude = 0.5, .waves = 1};
   std::vector<Realization> realizations;
   realizations.reserve(jobs.size());
   for (const Job& job : jobs) realizations.push_back(series(job, 1));
@@ -194,11 +195,11 @@ TEST_CASE("every part of the physics but the seed makes a series of its own") {
   for (const char* view : {"mean_series WHERE tau = 0", "mean_tau_c"}) {
     const std::string from = std::string(" FROM ") + view;
     CHECK(rows(store, "SELECT count(*), max(realizations)" + from) ==
-          std::vector<Row>{{std::int64_t{8}, std::int64_t{1}}});
+          std::vector<Row>{{std::int64_t{9}, std::int64_t{1}}});
     CHECK(rows(store,
                "SELECT count(DISTINCT d || e || n || particles || equilibrate || "
-               "sample_every || coalesce(sample_at, '') || effects)" +
-                   from) == std::vector<Row>{{std::int64_t{8}}});
+               "sample_every || coalesce(sample_at, '') || coalesce(start, '') || effects)" +
+                   from) == std::vector<Row>{{std::int64_t{9}}});
   }
 }
 
