@@ -19,8 +19,8 @@
 // P. Visco, F. van Wijland and E. Trizac, J. Phys. Chem. B 112, 5412 (2008), arXiv:0801.2728, and
 // Phys. Rev. E 77, 041117 (2008), arXiv:0803.1291, derive p(u) of the dilute gas and find it in
 // simulations. In a dense gas a flight is not independent of those before it: of an elastic gas at
-// n = 0.4 the density below u = 0.1 was measured as 0.955, and is 0.988 here. The other two are exact
-// at any density, in equilibrium.
+// n = 0.4 the density below u = 0.1 was measured as 0.955, and is 0.988 here. The other two are
+// exact at any density, in equilibrium.
 #pragma once
 
 namespace haff::analysis {
