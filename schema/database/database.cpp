@@ -39,7 +39,7 @@ void must_be_log_of(SQLite::Database& sqlite, const std::filesystem::path& file,
                     const std::filesystem::path& name) {
   const auto is_at_rest = [&] {
     const auto header = header_of(sqlite);
-    return header && !header->expects_log;
+    return header && header->is_of_database && !header->expects_log;
   };
   // Twice: a run may begin in between.
   if (!is_at_rest() || !has_log(file) || !is_at_rest()) return;

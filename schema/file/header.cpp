@@ -23,8 +23,9 @@ std::optional<Header> header_of(SQLite::Database& sqlite) {
   if (file->pMethods->xFileSize(file, &bytes) != SQLITE_OK) return std::nullopt;
   const int result = file->pMethods->xRead(file, first.data(), static_cast<int>(first.size()), 0);
   if (result != SQLITE_OK && result != SQLITE_IOERR_SHORT_READ) return std::nullopt;
-  if (std::string_view(first.data(), magic.size()) != magic) return std::nullopt;
-  return Header{.expects_log = first[place] == with_log, .bytes = bytes};
+  return Header{.is_of_database = std::string_view(first.data(), magic.size()) == magic,
+                .expects_log = first[place] == with_log,
+                .bytes = bytes};
 }
 
 }  // namespace haff::schema

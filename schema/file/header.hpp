@@ -12,14 +12,15 @@
 namespace haff::schema {
 
 struct Header {
+  // Not if another program wrote the file over; nor if power was lost while it was being copied
+  // from the log, which has the whole of it.
+  bool is_of_database = true;
   bool expects_log = false;  // it is to be read together with the log beside it
   std::int64_t bytes = 0;    // of the file
 };
 
-// Nothing if the file cannot be read just now, or does not begin as a database: power loss may
-// leave that of a header that was being copied from the log, which has the whole of it. It is read
-// through SQLite's own descriptor: to close another one would drop the locks that this process
-// holds on the file.
+// Nothing if the file cannot be read just now. It is read through SQLite's own descriptor: to close
+// another one would drop the locks that this process holds on the file.
 std::optional<Header> header_of(SQLite::Database& sqlite);
 
 }  // namespace haff::schema
