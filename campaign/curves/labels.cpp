@@ -12,7 +12,7 @@ namespace {
 
 struct Label {
   std::string_view name, symbol;
-  std::string_view unit = "";
+  std::string_view unit = {};
 };
 
 constexpr std::array labels{
