@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "campaign/accuracy/offer.hpp"
 #include "campaign/accuracy/cost/target.hpp"
+#include "campaign/accuracy/offer.hpp"
 #include "campaign/planning/forecast.hpp"
 
 namespace haff::campaign {

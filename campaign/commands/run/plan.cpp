@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "campaign/accuracy/targets/targets.hpp"
 #include "campaign/accuracy/targets/table.hpp"
+#include "campaign/accuracy/targets/targets.hpp"
 #include "campaign/base/output/output.hpp"
 #include "campaign/base/process/exit_code.hpp"
 #include "campaign/base/process/machine.hpp"

@@ -21,7 +21,9 @@ double moment(int power, int d) {
   for (int i = 0; i <= steps; ++i) {
     const double u = i * width;
     sum += std::pow(u, power) * free_time_density(u, d) *
-           (i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2);
+           (i == 0 || i == steps ? 1
+            : i % 2 == 1         ? 4
+                                 : 2);
   }
   return sum * width / 3;
 }

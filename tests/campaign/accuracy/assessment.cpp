@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // What errors come from, of gases whose errors are put in.
-#include "campaign/accuracy/offer.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/accuracy/offer.hpp"
 #include "support/synthetic_store.hpp"
 
 using namespace haff;
