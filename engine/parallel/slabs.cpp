@@ -31,6 +31,7 @@ constexpr std::uint32_t widest_zone = 14;
 }  // namespace
 
 unsigned useful_threads(std::uint32_t particles, double n, int d) {
+  if (particles < 2 * least_particles) return 1;
   const Box box(box_side(n, particles, d), d);
   if (!Bricks::fits(box)) return 1;
   const std::uint32_t slabs =

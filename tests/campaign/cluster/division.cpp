@@ -22,6 +22,7 @@ JobRow equilibration(std::int64_t id, double cpu_seconds, Status status = Status
   row.job_id = id;
   row.job.kind = Kind::equilibration;
   row.job.particles = 1000;
+  row.job.n = 0.4;
   row.tau_max = 50;
   row.status = status;
   row.expected_cpu_seconds = cpu_seconds;
