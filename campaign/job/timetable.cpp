@@ -95,10 +95,18 @@ std::int64_t sample_count(const schema::Job& job, double tau_max) {
   return count;
 }
 
+namespace {
+
+// The time that a gas is expected to take grows exponentially with tau, and may be infinite: no run
+// gets there, and a logarithmic list would leave the range of doubles.
+constexpr double latest_moment = 1e300;
+
+}  // namespace
+
 std::int64_t count_through(const schema::Moments& moments, double tau_max) {
+  const double end = std::min(tau_max * (1 + rounding), latest_moment);
   std::int64_t count = 0;
-  for (double tau = moments.next(-1); tau <= tau_max * (1 + rounding); tau = moments.next(tau))
-    ++count;
+  for (double tau = moments.next(-1); tau <= end; tau = moments.next(tau)) ++count;
   return count;
 }
 
@@ -107,7 +115,8 @@ namespace {
 // The last of these moments by `end`; 0 if there is none.
 double last_by(const schema::Moments& moments, double end) {
   double last = 0;
-  for (double tau = moments.next(-1); tau <= end; tau = moments.next(tau)) last = tau;
+  for (double tau = moments.next(-1); tau <= std::min(end, latest_moment); tau = moments.next(tau))
+    last = tau;
   return last;
 }
 

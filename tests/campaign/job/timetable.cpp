@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <vector>
 
 using namespace haff;
@@ -157,4 +158,11 @@ TEST_CASE("timetable: profiles and fields are not taken at moments of sample_at"
   CHECK(has_fields(profiled, 10));
   CHECK_FALSE(has_profiles(profiled, 9.8));
   CHECK_FALSE(has_fields(profiled, 9.8));
+}
+
+TEST_CASE("timetable: moments until a time beyond all numbers are counted, and none is no moment") {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  CHECK(count_through({}, never) == 0);
+  CHECK(count_through({.listed = {1, 2}}, never) == 2);
+  CHECK(count_through({.per_decade = 10, .from = 0.1}, never) == 3011);
 }
