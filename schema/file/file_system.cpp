@@ -11,8 +11,10 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <string_view>
+#include <system_error>
 
 #include "schema/file/passing_file.hpp"
 
@@ -178,8 +180,12 @@ int remove(sqlite3_vfs* vfs, const char* name, int sync_folder) {
   }
   sqlite3_vfs* system = system_below(vfs);
   const int result = system->xDelete(system, name, sync_folder);
-  if (result != SQLITE_OK && result != SQLITE_IOERR_DELETE_NOENT)
-    note(Operation::remove, name, errno);
+  if (result == SQLITE_OK || result == SQLITE_IOERR_DELETE_NOENT) return result;
+  note(Operation::remove, name, errno);
+  // A log is deleted when the file has all of it, while no other process may look. One that stayed
+  // would be taken for another file's; an empty one is none.
+  std::error_code none;
+  if (std::string_view(name).ends_with("-wal")) std::filesystem::resize_file(name, 0, none);
   return result;
 }
 
