@@ -231,6 +231,33 @@ struct PlacedLine {
   std::vector<double> x;
 };
 
+// Without what lies beyond `last`: x increases.
+void cut_after(PlacedLine& placed, double last) {
+  const auto kept =
+      static_cast<std::size_t>(std::ranges::upper_bound(placed.x, last) - placed.x.begin());
+  placed.x.resize(kept);
+  placed.line.values.resize(kept);
+  if (!placed.line.errors.empty()) placed.line.errors.resize(kept);
+}
+
+// The tau by which both clocks of theory have passed a time; 0 where theory has none. A gas can be
+// sampled at any moments, so their number says nothing of it.
+double tau_after(double time, const schema::Job& job) {
+  constexpr double farthest =
+      1e6;  // no gas of ours gets there, and a clock that is not a number ends
+  for (double end = 1; end < farthest; end *= 2) {
+    const auto tau = steps(0, end, theory_points);
+    std::size_t passed = 0;
+    for (const char* clock : {"temperature_haff", "temperature_energy_equation_non_gaussian"}) {
+      const auto times = times_of({.name = clock, .legend = {}}, job, tau, Simulations::left_out);
+      const auto here = std::ranges::lower_bound(times, time) - times.begin();
+      if (!times.empty()) passed = std::max(passed, static_cast<std::size_t>(here));
+    }
+    if (passed < tau.size()) return tau[passed];
+  }
+  return farthest;
+}
+
 std::vector<PlacedLine> theory_along_run(const Topic& topic, const GasCurve& gas) {
   std::vector<PlacedLine> placed;
   if (topic.kind == Topic::Kind::profile) {
@@ -246,14 +273,15 @@ std::vector<PlacedLine> theory_along_run(const Topic& topic, const GasCurve& gas
   }
   if (topic.x != "tau" && topic.x != "time") return placed;
   const schema::Job& job = gas.gases.front().job;
-  double end = gas.points.back().x;
-  if (topic.x == "time") end = static_cast<double>(gas.points.size()) * job.sample_every;
-  const auto tau = steps(0, end, theory_points);
+  const double last = gas.points.back().x;
+  const auto tau = steps(0, topic.x == "time" ? tau_after(last, job) : last, theory_points);
   for (TheoryLine& line : theory_of(gas.gases.front(), [&](const schema::Job& each) {
          return theory_in_tau(topic.y, each, tau);
        })) {
-    const auto x = topic.x == "time" ? times_of(line, job, tau) : tau;
-    if (!x.empty()) placed.push_back({std::move(line), x});
+    auto x = topic.x == "time" ? times_of(line, job, tau) : tau;
+    if (x.empty()) continue;
+    placed.push_back({std::move(line), std::move(x)});
+    cut_after(placed.back(), last);
   }
   return placed;
 }

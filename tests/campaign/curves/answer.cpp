@@ -142,6 +142,25 @@ TEST_CASE("answer: in time, Haff's law is 1 / (1 + t/t_0)^2") {
   CHECK(t_0(20) == Approx(t_0(150)).epsilon(1e-3));  // steps of the integral
 }
 
+TEST_CASE("answer: a line of theory ends where the data end, also where their clock is another") {
+  const auto store = two_gases();
+  for (const char* against : {"tau", "time"}) {
+    CAPTURE(against);
+    const Answer energy = answer(
+        store,
+        {.y = "energy", .against = against, .where = "e = 0.8 AND tau <= 5", .theory = true});
+    const double last = curves(energy).front().x.back();
+    CHECK(count(energy, Source::theory) >= 2);
+    for (const Curve& line : curves(energy)) {
+      if (line.source != Source::theory || line.x.empty()) continue;
+      CHECK(line.x.size() > 75);  // of 160 steps: the other clock may take twice as many
+      CHECK(line.x.back() <= last);
+      CHECK(line.x.back() > 0.98 * last);
+      CHECK(line.y.size() == line.x.size());
+    }
+  }
+}
+
 TEST_CASE("answer: differences are taken seed by seed") {
   const auto store = two_gases();
   const Answer less = answer(store, {.y = "temperature", .difference = {{"e", "0.9"}}});
