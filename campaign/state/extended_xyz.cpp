@@ -32,7 +32,7 @@ std::string cell(const engine::State& state) {
   return fmt::format(R"(Lattice="{0} 0 0 0 {0} 0 0 0 {0}" Origin="0 0 0" pbc="T T T")", state.box);
 }
 
-// Angular velocities of rough particles, three numbers each by id, scaled like the velocities.
+// Speeds of the surfaces of rough particles, three numbers each by id, scaled like the velocities.
 const std::vector<double>* spins_of(const engine::State& state) {
   const auto found = state.memory.find("spin");
   return found == state.memory.end() ? nullptr : &found->second;
@@ -49,9 +49,11 @@ std::vector<std::size_t> places_by_id(const engine::State& state) {
 }  // namespace
 
 std::string quoted_for_xyz(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\\\"") : std::string(1, c);
-  return quoted + '"';
+  const bool has_double = text.find('"') != std::string::npos;
+  if (has_double && text.find('\'') != std::string::npos)
+    throw std::invalid_argument(fmt::format("has quotes of both kinds: {}", text));
+  const char quote = has_double ? '\'' : '"';
+  return quote + text + quote;
 }
 
 void write_xyz(const engine::State& state, const std::string& facts, std::ostream& out) {
@@ -65,20 +67,20 @@ void write_xyz(const engine::State& state, const std::string& facts, std::ostrea
   const auto* spins = spins_of(state);
   fmt::format_to(std::back_inserter(text),
                  "{}\n{} Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1{} {}\n",
-                 state.particles(), cell(state), spins ? ":angular_velocity:R:3" : "", facts);
+                 state.particles(), cell(state), spins ? ":omega:R:3" : "", facts);
   for (const std::size_t place : places_by_id(state)) {
     const auto& r = state.position[place];
     const auto& v = state.velocity[place];
     const std::uint32_t id = state.id[place];
     const auto scaled = [&](double value) { return std::ldexp(value, -state.exponent); };
+    const double size = mixture ? radius * mixture->diameter_of(id) : radius;
     fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {} {} {}",
                    elements.at(mixture && mixture->is_second(id) ? 1 : 0), r[0], r[1], r[2],
-                   scaled(v[0]), scaled(v[1]), scaled(v[2]),
-                   mixture ? radius * mixture->diameter_of(id) : radius,
+                   scaled(v[0]), scaled(v[1]), scaled(v[2]), size,
                    mixture ? mixture->mass_of(id) : 1.0, id);
     if (spins != nullptr)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        fmt::format_to(std::back_inserter(text), " {}", scaled(spins->at(3 * id + axis)));
+        fmt::format_to(std::back_inserter(text), " {}", scaled(spins->at(3 * id + axis)) / size);
     text.push_back('\n');
     if (text.size() > chunk) flush();
   }
@@ -116,7 +118,8 @@ Number number(std::string_view word, std::size_t line, const char* what) {
   return value;
 }
 
-// key=value and key="a value" of the second line; a quote in quotes has a backslash before it.
+// key=value, key="a value" and key='a value' of the second line; ASE writes a backslash before a
+// quote in quotes.
 std::map<std::string, std::string, std::less<>> facts_of(std::string_view line) {
   std::map<std::string, std::string, std::less<>> facts;
   std::size_t at = 0;
@@ -127,8 +130,9 @@ std::map<std::string, std::string, std::less<>> facts_of(std::string_view line) 
     const std::size_t begin = before == std::string_view::npos ? at : std::max(at, before + 1);
     std::string value;
     std::size_t end = equals + 1;
-    if (end < line.size() && line[end] == '"') {
-      for (++end; end < line.size() && line[end] != '"'; ++end) {
+    if (end < line.size() && (line[end] == '"' || line[end] == '\'')) {
+      const char quote = line[end];
+      for (++end; end < line.size() && line[end] != quote; ++end) {
         if (line[end] == '\\' && end + 1 < line.size()) ++end;
         value += line[end];
       }
@@ -226,8 +230,12 @@ Frame read_xyz(std::istream& in) {
   const Column* velo = columns.contains("velo") ? find("velo", 3) : find("vel", 3);
   if (pos == nullptr || velo == nullptr)
     throw wrong(2, "Properties have no pos:R:3 and velo:R:3, positions and velocities");
-  const Column *spin = find("angular_velocity", 3), *size = find("radius", 1),
-               *mass = find("mass", 1), *species = find("species", 1), *id = find("id", 1);
+  if (columns.contains("angular_velocity"))
+    throw wrong(2,
+                "the column angular_velocity, as earlier versions wrote it, holds speeds of the "
+                "surface; divided by the radius they are the column omega");
+  const Column *spin = find("omega", 3), *size = find("radius", 1), *mass = find("mass", 1),
+               *species = find("species", 1), *id = find("id", 1);
   for (std::uint32_t k = 0; k < count; ++k) {
     const std::size_t place = std::size_t{k} + 3;
     if (!std::getline(in, line))

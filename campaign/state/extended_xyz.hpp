@@ -6,7 +6,7 @@
 //   species           H, and He for species 2 of a mixture: the readers want names of elements
 //   pos, velo         [sigma], [sqrt(E(0)/m)]; in order of id
 //   radius, mass, id
-//   angular_velocity  of rough particles, the speed of the surface [sqrt(E(0)/m)]
+//   omega             angular velocity of rough particles [sqrt(E(0)/m)/sigma]
 //
 // Numbers have all their digits: what is read back is the same state. Several of them, one after
 // the other, are a trajectory.

@@ -246,7 +246,10 @@ engine::State given_state(const Frame& frame, const schema::Job& job) {
     spins.resize(3 * state.id.size());
     double rotation = 0;
     for (std::size_t k = 0; k < state.id.size(); ++k) {
-      const Vector& w = frame.angular_velocity[k];
+      // A gas keeps the speed of the surface.
+      const double radius = 0.5 * (mixture ? mixture->diameter_of(state.id[k]) : 1);
+      Vector w = frame.angular_velocity[k];
+      for (double& component : w) component *= radius;
       must_fit(job.d == 3 || (w[0] == 0 && w[1] == 0),
                fmt::format("line {}: a disk turns out of its plane", k + 3));
       for (std::size_t axis = 0; axis < 3; ++axis) spins[3 * state.id[k] + axis] = w[axis];

@@ -20,6 +20,7 @@
 #include "campaign/commands/json_output.hpp"
 #include "campaign/state/extended_xyz.hpp"
 #include "campaign/state/restore.hpp"
+#include "engine/simulation.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::campaign {
@@ -40,11 +41,9 @@ class Export {
   void last_state() {
     const auto state = newest_state(store_, row_.job_id, row_.job);
     if (!state)
-      throw schema::NameError(
-          fmt::format("{}: no state of job {} ({}) is stored yet; run it at least to its first "
-                      "checkpoint, tau = {}, with: {}",
-                      store_.path().string(), row_.job_id, describe(row_.job),
-                      row_.checkpoint_every, command_text("run", store_.path())));
+      throw schema::NameError(fmt::format("{}: no state of job {} ({}) is stored; {}",
+                                          store_.path().string(), row_.job_id, describe(row_.job),
+                                          why_no_state()));
     write(*state, 2 * static_cast<double>(state->collisions) / state->particles());
   }
 
@@ -105,6 +104,19 @@ class Export {
     for (const schema::CheckpointInfo& info : store_.checkpoints())
       if (info.job_id == row_.job_id) return info;
     return std::nullopt;
+  }
+
+  std::string why_no_state() const {
+    const double period = engine::synchronization_period;
+    const std::string first =
+        number_text(period * std::max(1.0, std::ceil(row_.checkpoint_every / period)));
+    if (row_.tau_max < period)
+      return fmt::format(
+          "states are stored at multiples of tau = {}, and it ends at tau = {}; list "
+          "the moments of interest in the grid's \"snapshots_at\"",
+          number_text(period), number_text(row_.tau_max));
+    return fmt::format("run it at least to its first checkpoint, tau = {}, with: {}", first,
+                       command_text("run", store_.path()));
   }
 
   std::string what_there_is() const {

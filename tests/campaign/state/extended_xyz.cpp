@@ -47,17 +47,19 @@ TEST_CASE("extended XYZ: disks lie in a layer, species differ, rough particles s
       0.3, 10, 1, 2,
       {{"mixture", {{"fraction", 0.5}, {"diameter_ratio", 0.8}, {"mass_ratio", 0.1}}}});
   std::vector<double> spin(30);
-  spin[29] = 7;
+  spin[29] = 7;  // the speed of the surface of a disk of radius 0.4
   state.memory["spin"] = spin;
   const auto lines = lines_of(state, "n=0.3");
   REQUIRE(lines.size() == 12);
   CHECK(lines[1].find(R"( 0 0 0 1" Origin="0 0 -0.5" pbc="T T F")") != std::string::npos);
-  CHECK(lines[1].find(":id:I:1:angular_velocity:R:3 n=0.3") != std::string::npos);
+  CHECK(lines[1].find(":id:I:1:omega:R:3 n=0.3") != std::string::npos);
   CHECK(lines[2].starts_with("H "));
   CHECK(lines[11].starts_with("He "));
-  CHECK(lines[11].ends_with(" 0.4 0.1 9 0 0 7"));
+  CHECK(lines[11].ends_with(" 0.4 0.1 9 0 0 17.5"));
 }
 
 TEST_CASE("extended XYZ: text in the head is in quotes") {
-  CHECK(quoted_for_xyz(R"({"a":1})") == R"("{\"a\":1}")");
+  CHECK(quoted_for_xyz(R"({"a":1})") == R"('{"a":1}')");
+  CHECK(quoted_for_xyz("{}") == R"("{}")");
+  CHECK_THROWS_AS(quoted_for_xyz(R"(it's "a")"), std::invalid_argument);
 }

@@ -77,8 +77,8 @@ TEST_CASE("export: a rough mixture says which particles are of which species, an
   std::string count, head;
   std::getline(lines, count);
   std::getline(lines, head);
-  CHECK(head.find(":mass:R:1:id:I:1:angular_velocity:R:3 ") != std::string::npos);
-  CHECK(head.find("effects=\"{\\\"mixture\\\":") != std::string::npos);
+  CHECK(head.find(":mass:R:1:id:I:1:omega:R:3 ") != std::string::npos);
+  CHECK(head.find("effects='{\"mixture\":") != std::string::npos);
   int second = 0;
   double spin = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -110,6 +110,19 @@ TEST_CASE("export: what there is not is bad input") {
   CHECK(early.exit_code == 2);
   CHECK(early.err.find("no state of job 2") != std::string::npos);
   CHECK(early.err.find("with: campaign run") != std::string::npos);
+}
+
+TEST_CASE("export: a job that ends before its first checkpoint has only snapshots, and says so") {
+  const Folder folder;
+  folder.write("grid.json", R"({"e": 0.9, "n": 0.3, "N": 500, "seeds": 1, "tau_max": 5,
+    "equilibrate": 10, "snapshots_at": 3})");
+  REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
+  REQUIRE(campaign(folder, {"run"}).exit_code == 0);
+  const Outcome last = campaign(folder, {"export", "2"});
+  CHECK(last.exit_code == 2);
+  CHECK(last.err.find("it ends at tau = 5; list the moments of interest in the grid's "
+                      "\"snapshots_at\"") != std::string::npos);
+  CHECK(campaign(folder, {"export", "2", "--at", "3"}).exit_code == 0);
 }
 
 TEST_CASE("export: a damaged state is not written") {

@@ -3,7 +3,10 @@
 // What jobs start from: the key start.
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -11,6 +14,7 @@
 #include "cli/program.hpp"
 
 using namespace haff::tests;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -183,6 +187,39 @@ TEST_CASE("start: a file that export wrote, in the store from then on") {
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
   CHECK(campaign(folder, {"verify"}).exit_code == 0);
   CHECK(rows(folder) == before);
+}
+
+TEST_CASE("start: killed and resumed, on one thread and two, each ends with the same bits") {
+  // Large enough for two threads; a rough mixture, so that a file has all its columns.
+  const std::string gas = R"("e": 0.8, "n": 0.4, "N": 2500, "seeds": 1, "equilibrate": 10,
+    "checkpoint_every": 5, "effects": {"roughness": {"beta": 0.5, "q": 0.4},
+    "mixture": {"fraction": 0.5, "diameter_ratio": 0.8, "mass_ratio": 0.5}})";
+  const Folder before;
+  plan(before, "{" + gas + R"(, "tau_max": 5, "snapshots_at": 5})");
+  finish(before);
+  REQUIRE(shell(before, "\"$campaign\" export 2 --at 5 > gas.xyz").exit_code == 0);
+  const Folder calm, folder;
+  for (const Folder* each : {&calm, &folder}) {
+    std::filesystem::copy(before / "gas.xyz", *each / "gas.xyz");
+    plan(*each, "{" + gas + R"(, "tau_max": 40, "start": [{"file": "gas.xyz"}, "crystal",
+      "shear wave", "two temperatures"]})");
+  }
+  REQUIRE(campaign(calm, {"run"}).exit_code == 0);
+  int kills = 0;
+  for (bool complete = false; !complete && kills < 40;) {
+    Program run(folder, {"run", "--workers", "1", "--threads", kills % 2 == 0 ? "2" : "1"});
+    sleep_for(100ms + 50ms * (kills % 4));
+    complete = !run.runs();
+    if (!complete) {
+      run.signal(SIGKILL);
+      ++kills;
+    }
+    run.wait();
+  }
+  CHECK(kills > 1);
+  REQUIRE(campaign(folder, {"run", "--threads", "2"}).exit_code == 0);
+  CHECK(campaign(folder, {"verify"}).exit_code == 0);
+  CHECK(rows(folder) == rows(calm));
 }
 
 TEST_CASE("start: what cannot be started is refused, with the place in the grid and in the file") {
