@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "analysis/observables/displacements.hpp"
-#include "analysis/theory/enskog.hpp"
+#include "campaign/job/expected_rate.hpp"
 #include "campaign/job/timetable.hpp"
 #include "campaign/state/model.hpp"
 #include "engine/initial.hpp"
@@ -155,9 +155,7 @@ double Diffusion::expected_rate() const {
     energy += mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
   const double temperature = energy / (job_.d * static_cast<double>(job_.particles));
-  const double relative = mixture ? engine::relative_rate(*mixture, job_.d, job_.particles) : 1;
-  return 0.5 * job_.particles * relative *
-         analysis::transport(job_.n, temperature, job_.d).collision_rate;
+  return 0.5 * job_.particles * expected_collision_rate(job_, temperature);
 }
 
 std::vector<schema::Profile> Diffusion::sample(const engine::Simulation& gas, double tau) {

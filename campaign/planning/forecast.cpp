@@ -10,7 +10,7 @@
 #include "analysis/observables/pair_distribution.hpp"
 #include "analysis/observables/tail.hpp"
 #include "analysis/theory/cooling.hpp"
-#include "analysis/theory/enskog.hpp"
+#include "campaign/job/expected_rate.hpp"
 #include "campaign/job/timetable.hpp"
 #include "campaign/state/model.hpp"
 #include "engine/initial.hpp"
@@ -69,8 +69,7 @@ struct Counts {
 // When a gas that cools by Haff's law, or does not cool, reaches tau: only how many moments in time
 // come before that hangs on it.
 double expected_time(const schema::Job& job, double tau) {
-  const double temperature = analysis::initial_temperature(job.d);
-  const double rate = analysis::transport(job.n, temperature, job.d).collision_rate;
+  const double rate = expected_collision_rate(job, analysis::initial_temperature(job.d));
   const double decay = cools_by_haff(job) ? (1 - *job.e * *job.e) / (2.0 * job.d) : 0;
   return decay > 0 ? std::expm1(decay * tau) / (decay * rate) : tau / rate;
 }

@@ -42,6 +42,7 @@ class ImaginedRun {
     for (const Planned* planned : claimable_)
       if (planned->job.kind == Kind::equilibration)
         starts_[planned] = equilibrations.at(identity(planned->job));
+    std::ranges::make_heap(claimable_, comes_after);
   }
 
   RunTime work() {
@@ -60,18 +61,19 @@ class ImaginedRun {
     double speed;  // on its present number of threads
   };
 
-  static bool comes_before(const Planned* a, const Planned* b) {
+  // Equilibrations go first, and then what takes longest.
+  static bool comes_after(const Planned* a, const Planned* b) {
     const bool a_first = a->job.kind == Kind::equilibration;
     const bool b_first = b->job.kind == Kind::equilibration;
-    if (a_first != b_first) return a_first;
-    return a->expected_cpu_seconds.value_or(0) > b->expected_cpu_seconds.value_or(0);
+    if (a_first != b_first) return b_first;
+    return a->expected_cpu_seconds.value_or(0) < b->expected_cpu_seconds.value_or(0);
   }
 
   void begin_next() {
-    const auto next = std::ranges::min_element(claimable_, comes_before);
-    running_.push_back({*next, (*next)->expected_cpu_seconds.value_or(0), 1});
-    *next = claimable_.back();
+    std::ranges::pop_heap(claimable_, comes_after);
+    const Planned* next = claimable_.back();
     claimable_.pop_back();
+    running_.push_back({next, next->expected_cpu_seconds.value_or(0), 1});
   }
 
   // To the end of the job that ends first.
@@ -90,14 +92,16 @@ class ImaginedRun {
     const auto ended = [](const Running& each) { return each.left <= 1e-9 * each.speed; };
     for (const Running& each : running_)
       if (const auto start = starts_.find(each.planned); ended(each) && start != starts_.end())
-        claimable_.insert(claimable_.end(), waiting_[start->second].begin(),
-                          waiting_[start->second].end());
+        for (const Planned* planned : waiting_[start->second]) {
+          claimable_.push_back(planned);
+          std::ranges::push_heap(claimable_, comes_after);
+        }
     std::erase_if(running_, ended);
   }
 
   ThreadShare share_;
   RunTime time_;
-  std::vector<const Planned*> claimable_;
+  std::vector<const Planned*> claimable_;  // a heap: the next one is its top
   std::vector<Running> running_;
   std::map<const Planned*, std::size_t> starts_;      // numbers of equilibrations
   std::vector<std::vector<const Planned*>> waiting_;  // for each of them

@@ -45,6 +45,11 @@ TEST_CASE("run time: small jobs fill the processors, one thread each") {
   CHECK(expected_run_time({}, 4).seconds == 0);
 }
 
+// A tenth of a second. If each start of a job looked through all that wait, it would be a minute.
+TEST_CASE("run time: of a hundred thousand jobs it is found at once" * doctest::timeout(10)) {
+  CHECK(expected_run_time(small_jobs(100'000, 7), 4).seconds == doctest::Approx(175'000));
+}
+
 TEST_CASE("run time: a cooling gas waits for its equilibration") {
   CHECK(expected_run_time(with_its_start(gas(1000), 3, 5), 4).seconds == doctest::Approx(8));
 }

@@ -105,3 +105,19 @@ TEST_CASE("plan: a store that cannot be made is bad input") {
   CHECK(outcome.exit_code == 2);
   CHECK(outcome.err.find("no/folder/x.db") != std::string::npos);
 }
+
+TEST_CASE("plan: a dense mixture of small spheres is planned by what fills the box, and runs") {
+  const Folder folder;
+  folder.write("grid.json", R"({"e": 0.9, "n": 3, "N": 1008, "seeds": 1, "tau_max": 10,
+    "equilibrate": 10, "observables": ["temperature", "laguerre", "msd", "pair_distribution"],
+    "sample_at": {"time": {"log": 2}}, "effects":
+    {"mixture": {"fraction": 0.857, "diameter_ratio": 0.4, "mass_ratio": 0.064}}})");
+  for (const char* command :
+       {"plan grid.json", "run", "status", "verify", "report", "plot Z --theory --out z.csv",
+        "plot g_12 --against r --out g.csv", "plot energy --against time --theory --out t.csv"}) {
+    CAPTURE(command);
+    const Outcome outcome = shell(folder, std::string("\"$campaign\" ") + command);
+    CAPTURE(outcome.err);
+    CHECK(outcome.exit_code == 0);
+  }
+}
