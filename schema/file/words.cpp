@@ -149,10 +149,11 @@ bool bears_our_mark(const std::filesystem::path& store) {
   return file && mark == "Haff";
 }
 
+// As it was called: what started itself anew is "exe" in comm.
 std::string command_name(const std::string& process) {
   std::string name;
-  std::getline(std::ifstream("/proc/" + process + "/comm"), name);
-  return name;
+  std::getline(std::ifstream("/proc/" + process + "/cmdline"), name, '\0');
+  return std::filesystem::path(name).filename().string();
 }
 
 }  // namespace
@@ -193,14 +194,17 @@ std::string lock_holders(const std::filesystem::path& store) {
                   static_cast<unsigned long>(info.st_ino));
     files.insert(name.data());
   }
-  std::set<std::string> processes;
+  std::set<std::string> readers, writers;
   std::ifstream locks("/proc/locks");
   for (std::string line; std::getline(locks, line);) {
     std::istringstream words(line);
     std::string number, type, advisory, kind, process, file;
     words >> number >> type >> advisory >> kind >> process >> file;
-    if (files.contains(file) && process != std::to_string(getpid())) processes.insert(process);
+    if (!files.contains(file) || process == std::to_string(getpid())) continue;
+    (kind == "WRITE" ? writers : readers).insert(process);
   }
+  // A run's own workers read: they are in the way only where no process writes.
+  const auto& processes = writers.empty() ? readers : writers;
   std::string text;
   for (const std::string& process : processes)
     text +=
