@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A store's version: how many of the scripts 001-....sql, 002-....sql it has seen.
+// Which store this is: ours or not, of which version (sql/scripts.hpp), and brought forward.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -9,20 +9,13 @@
 #include <functional>
 #include <span>
 #include <string_view>
-#include <vector>
+
+#include "schema/sql/scripts.hpp"
 
 namespace haff::schema {
 
 // "Haff" in ASCII: marks the file as a store (`file campaign.db` shows it).
 inline constexpr int application_id = 0x48616666;
-
-// All scripts, in their order. Whatever brings a store to the newest version ends with the last
-// one, and with it the views that average are made anew. A change of these views therefore takes a
-// new script, or stores that have them as they were count as changed by another program.
-std::vector<std::string_view> scripts();
-
-// The version of a store that has seen this script, and none after it.
-int version_with(std::string_view script);
 
 int version_of(SQLite::Database& sqlite);
 

@@ -14,7 +14,7 @@ using namespace haff::schema;
 
 namespace {
 
-// What is said of a store in which this SQL was run by somebody.
+// The complaint about a store in which another program has run this SQL, up to its first semicolon.
 std::string said_after(const std::string& sql) {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";

@@ -6,9 +6,9 @@
 
 #include <string>
 
-#include "schema/database/versions.hpp"
 #include "schema/digests/digests.hpp"
 #include "schema/fixture.hpp"
+#include "schema/sql/scripts.hpp"
 
 using namespace haff::schema;
 

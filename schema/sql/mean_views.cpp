@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "schema/database/views.hpp"
+#include "schema/sql/mean_views.hpp"
 
 #include <fmt/format.h>
 

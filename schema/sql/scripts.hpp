@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The scripts 001-....sql, 002-....sql. A store's version is how many of them it has seen. Private
+// to schema/.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace haff::schema {
+
+// All scripts, in their order. Whatever brings a store to the newest version ends with the last
+// one, and with it the views that average are made anew. A change of these views therefore takes a
+// new script, or stores that have them as they were count as changed by another program.
+std::vector<std::string_view> scripts();
+
+// The version of a store that has seen this script, and none after it.
+int version_with(std::string_view script);
+
+}  // namespace haff::schema
