@@ -61,7 +61,9 @@ std::string run_gnuplot(const std::string& script) {
   posix_spawn_file_actions_adddup2(&actions, fileno(complaints.get()), STDERR_FILENO);
   char name[] = "gnuplot";
   char defaults[] = "-d";  // without start-up files
-  char* arguments[] = {name, defaults, nullptr};
+  // By this name gnuplot reads its input in large pieces, and without it byte by byte.
+  char script_file[] = "/dev/stdin";
+  char* arguments[] = {name, defaults, script_file, nullptr};
   pid_t child = 0;
   const int failure = posix_spawnp(&child, name, &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);

@@ -42,29 +42,27 @@ Drawn draw(const schema::Reader& store, const std::filesystem::path& out,
 
 }  // namespace
 
-TEST_CASE("figures: a small campaign gives tables and pictures of all it can draw") {
+TEST_CASE("figures: a small campaign gives tables and pictures of all it can draw, and a page") {
   const TemporaryFolder folder;
-  const auto drawn = draw(first_campaign(), folder.path() / "made" / "here");
+  const auto made = folder.path() / "made" / "here";
+  const auto drawn = draw(first_campaign(), made);
   CHECK(drawn.code == 0);
   for (int id = 1; id <= 13; ++id) {
     const std::string name = "figure-" + std::string(id < 10 ? "0" : "") + std::to_string(id);
-    const auto file = folder.path() / "made" / "here" / name;
+    const auto file = made / name;
     CHECK(contents(file.string() + ".csv").starts_with("panel,curve,kind,"));
     CHECK(contents(file.string() + ".svg").find("</svg>") != std::string::npos);
     CHECK(contents(file.string() + ".png").starts_with("\x89PNG"));
   }
   CHECK(drawn.report.find("N = 2 000, mean of 2 realizations. haff synthetic.") !=
         std::string::npos);
-}
 
-TEST_CASE("figures: a page shows them all, beside a table of agreement") {
-  const TemporaryFolder folder;
-  const auto drawn = draw(first_campaign(), folder.path());
+  // The page shows them all, beside a table of agreement.
   CHECK(drawn.report.find("index.html") != std::string::npos);
-  const std::string page = contents(folder.path() / "index.html");
+  const std::string page = contents(made / "index.html");
   CHECK(page.find("src=\"figure-01.svg\"") != std::string::npos);
   CHECK(page.find("Figure 13") != std::string::npos);
-  CHECK(contents(folder.path() / "agreement.csv").find("\ntau_c,") != std::string::npos);
+  CHECK(contents(made / "agreement.csv").find("\ntau_c,") != std::string::npos);
 }
 
 TEST_CASE("figures: one realization is drawn too, without errors") {

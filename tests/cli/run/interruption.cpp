@@ -118,10 +118,11 @@ TEST_CASE("interruption: SIGINT and SIGTERM stop a run in order, and the same co
     int signal;
     int exit_code;
   };
+  const char* grid =
+      R"({"e": 0.9, "n": 0.4, "N": 1000, "seeds": 2, "tau_max": 500, "sample_every": 5})";
+  const std::string expected = calm_rows(grid);
   for (const Stop stop : {Stop{SIGINT, 130}, Stop{SIGTERM, 143}}) {
     CAPTURE(stop.signal);
-    const char* grid =
-        R"({"e": 0.9, "n": 0.4, "N": 1000, "seeds": 2, "tau_max": 500, "sample_every": 5})";
     const Folder folder;
     plan(folder, grid);
     Program run(folder, {"run", "--workers", "2"});
@@ -138,7 +139,7 @@ TEST_CASE("interruption: SIGINT and SIGTERM stop a run in order, and the same co
     CHECK(number(folder, "SELECT sum(attempts) FROM jobs") == 0);
     CHECK(campaign(folder, {"verify"}).exit_code == 0);
     CHECK(campaign(folder, {"run"}).exit_code == 0);
-    CHECK(rows(folder) == calm_rows(grid));
+    CHECK(rows(folder) == expected);
   }
 }
 

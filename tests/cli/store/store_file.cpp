@@ -68,7 +68,7 @@ TEST_CASE("store file: a backup during a run is sound and can be run") {
   wait_for_work(folder);
   CHECK(campaign(folder, {"backup", "copy.db"}).exit_code == 0);
   CHECK(campaign(folder, {"verify", "--store", "copy.db"}).exit_code == 0);
-  CHECK(campaign(folder, {"run", "--store", "copy.db", "--max-time", "3s"}).exit_code != 1);
+  CHECK(campaign(folder, {"run", "--store", "copy.db", "--max-time", "0.5s"}).exit_code != 1);
   const Outcome again = campaign(folder, {"backup", "copy.db"});
   CHECK(again.exit_code == 2);
   CHECK(again.err.find("exists already") != std::string::npos);
@@ -82,7 +82,7 @@ TEST_CASE("store file: what took the place of a running store is as it was put t
     const Folder folder;
     plan(folder, grid);
     shell(folder, "cp campaign.db old.db; cp campaign.db same.db");
-    Program run(folder, {"run", "--workers", "2"});
+    Program run(folder, {"run", "--workers", "1"});
     wait_for_work(folder);
     shell(folder, command);
     CHECK(run.wait().exit_code == 1);
@@ -166,7 +166,7 @@ TEST_CASE("store file: a copy made without its log is known as one") {
   const Outcome status = campaign(folder, {"status", "--store", "copy.db"});
   CHECK(status.exit_code == 0);
   CHECK(status.err.find("its newest rows may be missing") != std::string::npos);
-  CHECK(campaign(folder, {"run", "--store", "copy.db", "--max-time", "2s"}).exit_code != 1);
+  CHECK(campaign(folder, {"run", "--store", "copy.db", "--max-time", "0.5s"}).exit_code != 1);
   CHECK(campaign(folder, {"verify", "--store", "copy.db"}).exit_code == 0);
 }
 
