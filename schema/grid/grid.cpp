@@ -11,7 +11,7 @@
 
 #include "schema/grid/document.hpp"
 #include "schema/grid/effects.hpp"
-#include "schema/grid/examiner.hpp"
+#include "schema/grid/examination/examiner.hpp"
 #include "schema/grid/job.hpp"
 #include "schema/grid/rules.hpp"
 #include "schema/grid/source.hpp"

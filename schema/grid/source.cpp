@@ -94,4 +94,11 @@ std::string text(double value) {
   return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
 }
 
+std::string rounded(double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                 std::chars_format::general, 3);
+  return {digits.data(), end.ptr};
+}
+
 }  // namespace haff::schema

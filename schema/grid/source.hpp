@@ -66,4 +66,7 @@ std::vector<Source> sources(const Json& document);
 // The shortest text that reads back as the same number: 0.8, 32000.
 std::string text(double value);
 
+// The number to three digits: 0.785, 2e+08.
+std::string rounded(double value);
+
 }  // namespace haff::schema

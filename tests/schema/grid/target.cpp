@@ -25,21 +25,6 @@ TEST_CASE("targets are read with their windows") {
   CHECK(targets[1].tau_to == 0);
 }
 
-TEST_CASE("a target that runs cannot judge is refused") {
-  check_complaint(with_target(R"({"a2": {"tau": [5, 15], "se": 5e-4}})", R"("seeds": 3)"),
-                  "g.json: /seeds: 3 are too few pilot runs for a target; expected at least 5 "
-                  "seeds");
-  check_complaint(with_target(R"({"a2": {"tau": [5, 95], "se": 5e-4}})"),
-                  "g.json: /target/a2/tau/1: 95 is beyond the run; expected at most tau_max = 90");
-  check_complaint(with_target(R"({"a2": {"tau": [15, 5], "se": 5e-4}})"),
-                  "g.json: /target/a2/tau: [15,5] holds no interval between samples; expected a "
-                  "window of at least sample_every = 1");
-  check_complaint(
-      with_target(R"({"tau_c": {"se": 1}})", R"("seeds": 5, "observables": ["laguerre"])"),
-      "g.json: /target/tau_c: is not measured; expected \"temperature\" among the observables of "
-      "this grid");
-}
-
 TEST_CASE("a target needs a standard error above 0 and a known quantity") {
   CHECK(complaint(with_target(R"({"a2": {"tau": [5, 15], "se": 0}})")).find("/target/a2/se") !=
         std::string::npos);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The rules of a grid that a JSON schema cannot express: what fits into a box, what goes together,
-// what can be reached. Private to schema/.
+// The rules of a grid that a JSON schema cannot express: what fits into a box (box.hpp), what goes
+// together (combinations.hpp), what lies on the axis of tau (tau.hpp), which targets can be reached
+// (targets.hpp), and, here, that nothing is said twice, left out, or too much. Private to schema/.
 #pragma once
 
 #include <string>
