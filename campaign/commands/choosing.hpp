@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "schema/store/choice.hpp"
+#include "schema/store/planning/choice.hpp"
 
 namespace haff::campaign {
 

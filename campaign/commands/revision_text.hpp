@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "schema/store/revision.hpp"
+#include "schema/store/planning/revision.hpp"
 
 namespace haff::campaign {
 

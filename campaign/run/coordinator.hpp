@@ -10,7 +10,7 @@
 #include <string>
 
 #include "campaign/run/event_log.hpp"
-#include "schema/store/choice.hpp"
+#include "schema/store/planning/choice.hpp"
 
 namespace haff::campaign {
 

@@ -14,7 +14,7 @@
 #include <set>
 
 #include "campaign/run/display.hpp"
-#include "schema/store/choice.hpp"
+#include "schema/store/planning/choice.hpp"
 
 namespace haff::campaign {
 

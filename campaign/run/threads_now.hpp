@@ -4,7 +4,7 @@
 #pragma once
 
 #include "campaign/job/thread_share.hpp"
-#include "schema/store/choice.hpp"
+#include "schema/store/planning/choice.hpp"
 
 namespace haff::campaign {
 

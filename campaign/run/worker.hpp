@@ -9,7 +9,7 @@
 #include <string>
 
 #include "campaign/job/thread_share.hpp"
-#include "schema/store/choice.hpp"
+#include "schema/store/planning/choice.hpp"
 
 namespace haff::campaign {
 

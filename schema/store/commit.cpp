@@ -9,11 +9,11 @@
 #include "schema/database/database.hpp"
 #include "schema/digests/checksum.hpp"
 #include "schema/rows/sample_columns.hpp"
-#include "schema/store/agreement.hpp"
-#include "schema/store/bind.hpp"
-#include "schema/store/checked_rows.hpp"
 #include "schema/store/lease.hpp"
-#include "schema/store/state_rows.hpp"
+#include "schema/store/rows/bind.hpp"
+#include "schema/store/rows/checked_rows.hpp"
+#include "schema/store/rows/state_rows.hpp"
+#include "schema/store/soundness/agreement.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {

@@ -2,7 +2,7 @@
 
 #include "schema/store/lease.hpp"
 
-#include "schema/store/bind.hpp"
+#include "schema/store/rows/bind.hpp"
 
 namespace haff::schema {
 

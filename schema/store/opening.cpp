@@ -3,8 +3,8 @@
 // How a store is opened, brought forward, and closed.
 #include "schema/database/database.hpp"
 #include "schema/rows/column.hpp"
-#include "schema/store/checked_rows.hpp"
 #include "schema/store/lease.hpp"
+#include "schema/store/rows/checked_rows.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {

@@ -10,9 +10,9 @@
 #include "schema/database/backup.hpp"
 #include "schema/database/database.hpp"
 #include "schema/digests/checksum.hpp"
-#include "schema/store/checked_rows.hpp"
-#include "schema/store/claiming.hpp"
-#include "schema/store/job_rows.hpp"
+#include "schema/store/planning/claiming.hpp"
+#include "schema/store/rows/checked_rows.hpp"
+#include "schema/store/rows/job_rows.hpp"
 
 namespace haff::schema {
 

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "schema/database/database.hpp"
-#include "schema/store/bind.hpp"
-#include "schema/store/checked_rows.hpp"
-#include "schema/store/job_rows.hpp"
+#include "schema/store/rows/bind.hpp"
+#include "schema/store/rows/checked_rows.hpp"
+#include "schema/store/rows/job_rows.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {

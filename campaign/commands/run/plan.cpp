@@ -27,7 +27,7 @@
 #include "campaign/planning/preparation.hpp"
 #include "campaign/run/abandoned.hpp"
 #include "schema/grid/grid.hpp"
-#include "schema/store/revision.hpp"
+#include "schema/store/planning/revision.hpp"
 
 namespace haff::campaign {
 namespace {

@@ -13,7 +13,7 @@
 #include "campaign/planning/forecast.hpp"
 #include "campaign/planning/run_time.hpp"
 #include "campaign/results/box.hpp"
-#include "schema/store/revision.hpp"
+#include "schema/store/planning/revision.hpp"
 
 namespace haff::campaign {
 

@@ -18,7 +18,7 @@
 #include "campaign/commands/json_output.hpp"
 #include "campaign/commands/revision_text.hpp"
 #include "campaign/run/abandoned.hpp"
-#include "schema/store/revision.hpp"
+#include "schema/store/planning/revision.hpp"
 
 namespace haff::campaign {
 namespace {

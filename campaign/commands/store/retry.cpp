@@ -18,7 +18,7 @@
 #include "campaign/base/text/printable.hpp"
 #include "campaign/commands/json_output.hpp"
 #include "campaign/state/restore.hpp"
-#include "schema/store/contradiction.hpp"
+#include "schema/store/soundness/contradiction.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::campaign {

@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "schema/fixture.hpp"
-#include "schema/store/revision.hpp"
+#include "schema/store/planning/revision.hpp"
 #include "schema/store/working.hpp"
 
 using namespace haff::schema;

@@ -15,7 +15,7 @@
 
 #include "schema/database/database.hpp"
 #include "schema/digests/checksum.hpp"
-#include "schema/store/job_rows.hpp"
+#include "schema/store/rows/job_rows.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {

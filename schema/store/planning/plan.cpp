@@ -5,10 +5,10 @@
 
 #include "schema/database/database.hpp"
 #include "schema/digests/checksum.hpp"
-#include "schema/store/bind.hpp"
-#include "schema/store/checked_rows.hpp"
-#include "schema/store/claiming.hpp"
-#include "schema/store/state_rows.hpp"
+#include "schema/store/planning/claiming.hpp"
+#include "schema/store/rows/bind.hpp"
+#include "schema/store/rows/checked_rows.hpp"
+#include "schema/store/rows/state_rows.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "schema/store/state_rows.hpp"
+#include "schema/store/rows/state_rows.hpp"
 
 #include <algorithm>
 
 #include "schema/database/database.hpp"
 #include "schema/database/prepared.hpp"
-#include "schema/store/bind.hpp"
+#include "schema/store/rows/bind.hpp"
 
 namespace haff::schema {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "schema/store/choice.hpp"
+#include "schema/store/planning/choice.hpp"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include "schema/database/database.hpp"
 #include "schema/database/sql_names.hpp"
 #include "schema/grid/suggestion.hpp"
-#include "schema/store/checked_rows.hpp"
-#include "schema/store/claiming.hpp"
+#include "schema/store/planning/claiming.hpp"
+#include "schema/store/rows/checked_rows.hpp"
 
 namespace haff::schema {
 

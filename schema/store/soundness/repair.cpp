@@ -4,7 +4,7 @@
 #include <set>
 
 #include "schema/database/database.hpp"
-#include "schema/store/job_rows.hpp"
+#include "schema/store/rows/job_rows.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {

@@ -2,7 +2,7 @@
 
 // What is computed a second time must come out as it did the first time, since the same job gives
 // the same bits: samples that a job had stored before it began again, and those of other jobs with
-// the same physics, which observe more or less of the same gas. Private to this folder.
+// the same physics, which observe more or less of the same gas. Private to schema/.
 #pragma once
 
 #include <cstdint>

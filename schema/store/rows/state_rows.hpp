@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// States as rows: cut into BLOBs that SQLite takes. Private to this folder.
+// States as rows: cut into BLOBs that SQLite takes. Private to schema/.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "schema/store/choice.hpp"
+#include "schema/store/planning/choice.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "schema/store/agreement.hpp"
+#include "schema/store/soundness/agreement.hpp"
 
 #include <fmt/format.h>
 
@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "schema/rows/sample_columns.hpp"
-#include "schema/store/checked_rows.hpp"
-#include "schema/store/contradiction.hpp"
-#include "schema/store/job_rows.hpp"
+#include "schema/store/rows/checked_rows.hpp"
+#include "schema/store/rows/job_rows.hpp"
+#include "schema/store/soundness/contradiction.hpp"
 
 namespace haff::schema {
 

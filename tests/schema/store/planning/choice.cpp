@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Which jobs a user's SQL chooses, in which order they are claimed, and what SQL is refused.
-#include "schema/store/choice.hpp"
+#include "schema/store/planning/choice.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 
 // Jobs that are cancelled, and grids that replace a plan: what goes, what stays, and that the store
 // is sound afterwards.
-#include "schema/store/revision.hpp"
+#include "schema/store/planning/revision.hpp"
 
 #include <doctest/doctest.h>
 

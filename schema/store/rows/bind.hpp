@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What the statements of this folder share. Private to schema/.
+// What the statements of schema/store share. Private to schema/.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>

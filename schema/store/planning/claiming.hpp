@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // How jobs are added, counted, looked for and claimed, whether all of them or some that were
-// chosen. Private to this folder.
+// chosen. Private to schema/.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "schema/store/checked_rows.hpp"
+#include "schema/store/rows/checked_rows.hpp"
 
 #include <cstring>
 #include <exception>

@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "schema/database/database.hpp"
-#include "schema/store/bind.hpp"
-#include "schema/store/checked_rows.hpp"
-#include "schema/store/claiming.hpp"
 #include "schema/store/lease.hpp"
+#include "schema/store/planning/claiming.hpp"
+#include "schema/store/rows/bind.hpp"
+#include "schema/store/rows/checked_rows.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::schema {

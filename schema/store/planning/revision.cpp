@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "schema/store/revision.hpp"
+#include "schema/store/planning/revision.hpp"
 
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -13,8 +13,8 @@
 #include <variant>
 
 #include "schema/database/database.hpp"
-#include "schema/store/claiming.hpp"
-#include "schema/store/job_rows.hpp"
+#include "schema/store/planning/claiming.hpp"
+#include "schema/store/rows/job_rows.hpp"
 
 namespace haff::schema {
 

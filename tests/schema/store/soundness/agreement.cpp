@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Samples that are computed a second time: of one job, and of two jobs with the same physics.
-#include "schema/store/agreement.hpp"
+#include "schema/store/soundness/agreement.hpp"
 
 #include <doctest/doctest.h>
 

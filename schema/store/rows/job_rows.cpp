@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "schema/store/job_rows.hpp"
+#include "schema/store/rows/job_rows.hpp"
 
 #include <fmt/format.h>
 
