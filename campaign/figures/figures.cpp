@@ -13,7 +13,7 @@
 #include "campaign/base/output/output_files.hpp"
 #include "campaign/base/text/command_text.hpp"
 #include "campaign/base/text/printable.hpp"
-#include "campaign/curves/answer.hpp"
+#include "campaign/curves/answer/answer.hpp"
 #include "campaign/figures/general.hpp"
 #include "campaign/figures/page.hpp"
 #include "campaign/paper/claims/agreement.hpp"

@@ -17,7 +17,7 @@
 #include "campaign/base/text/printable.hpp"
 #include "campaign/base/text/text_table.hpp"
 #include "campaign/commands/json_output.hpp"
-#include "campaign/curves/answer.hpp"
+#include "campaign/curves/answer/answer.hpp"
 #include "campaign/curves/inventory.hpp"
 #include "campaign/plot/picture.hpp"
 #include "campaign/plot/table.hpp"

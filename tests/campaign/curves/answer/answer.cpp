@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Plots that answer questions, from stores made of theory and noise.
-#include "campaign/curves/answer.hpp"
+#include "campaign/curves/answer/answer.hpp"
 
 #include <doctest/doctest.h>
 
