@@ -165,6 +165,9 @@ std::string bash_completion(const CLI::App& app) {
 _{0}() {{
   local cur=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}}
   local commands="{1}" command= word words files=no
+  # bash takes --store=FILE apart at the sign.
+  [[ $previous == "=" ]] && previous=${{COMP_WORDS[COMP_CWORD-2]}}
+  [[ $cur == "=" ]] && cur=
   for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
     [[ " $commands " == *" $word "* ]] && {{ command=$word; break; }}
   done
@@ -268,14 +271,30 @@ void add_fish(const CLI::App& app, const std::string& program, const std::string
 
 std::string fish_completion(const CLI::App& app) {
   const std::string& program = app.get_name();
-  std::string script = fmt::format(
-      "# Completion of {0} for fish. Made by `{0} document fish`.\ncomplete -c {0} -f\n", program);
+  const auto commands = commands_of(app);
+  std::string names;
+  for (const CLI::App* command : commands) names += ' ' + command->get_name();
+  // fish's own __fish_use_subcommand takes FILE in `--store FILE` for the command.
+  std::string script = fmt::format(R"(# Completion of {0} for fish. Made by `{0} document fish`.
+# Has a command been typed, and is it this one?
+function __{0}_command
+    set -l words (commandline -opc)
+    for word in $words[2..]
+        contains -- $word{1}; or continue
+        test (count $argv) = 0; or test $word = $argv[1]
+        return
+    end
+    return 1
+end
+complete -c {0} -f
+)",
+                                   program, names);
   add_fish(app, program, "", script);
-  for (const CLI::App* command : commands_of(app)) {
-    script += fmt::format("complete -c {} -n __fish_use_subcommand -a {} -d '{}'\n", program,
+  for (const CLI::App* command : commands) {
+    script += fmt::format("complete -c {0} -n 'not __{0}_command' -a {1} -d '{2}'\n", program,
                           command->get_name(), fish_text(command->get_description()));
     const std::string condition =
-        fmt::format(" -n '__fish_seen_subcommand_from {}'", command->get_name());
+        fmt::format(" -n '__{}_command {}'", program, command->get_name());
     add_fish(*command, program, condition, script);
     for (const CLI::Option* option : positionals_of(*command))
       if (is_file(*option) || value_of(*option) == "NAME...")

@@ -72,5 +72,7 @@ TEST_CASE("documents: bash completes commands, options, their values and files")
   CHECK(completed(folder, "query --format j") == "json\n");
   CHECK(completed(folder, "plan gr") == "grid.json\n");
   CHECK(completed(folder, "--store grid.j") == "grid.json\n");
+  CHECK(completed(folder, "run --store = grid.j") == "grid.json\n");
+  CHECK(completed(folder, "query --format =") == "table csv json\n");
   CHECK(completed(folder, "run --max-time ''") == "\n");  // a time cannot be guessed
 }
