@@ -16,6 +16,7 @@
 #include "campaign/job/at_time.hpp"
 #include "campaign/job/collisions.hpp"
 #include "campaign/job/measurement.hpp"
+#include "campaign/job/timetable.hpp"
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/model.hpp"
 #include "campaign/state/restore.hpp"
@@ -40,8 +41,6 @@ constexpr double patience = 3.0;
 std::string threads_text(unsigned threads) {
   return threads == 1 ? "1 thread" : fmt::format("{} threads", threads);
 }
-// Snapshots that wait for the next state take no more memory than this. [bytes]
-constexpr std::size_t most_waiting = std::size_t{64} << 20;
 
 }  // namespace
 
@@ -154,7 +153,7 @@ void Attempt::add_snapshot(double tau, double time) {
                         .state = encode(gas_->snapshot())});
   std::size_t bytes = 0;
   for (const schema::Snapshot& each : snapshots_) bytes += each.state.size();
-  if (bytes > most_waiting) commit_rows();
+  if (bytes > most_waiting_snapshots) commit_rows();
 }
 
 void Attempt::see_to_time(double time) {

@@ -8,12 +8,17 @@
 // checkpoint_every, and at the last one before the end, from which a longer run would go on.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
 #include "schema/grid/job.hpp"
 
 namespace haff::campaign {
+
+// Snapshots wait for the next synchronization to be stored with what it stores; more than this do
+// not. [bytes]
+inline constexpr std::size_t most_waiting_snapshots = std::size_t{64} << 20;
 
 // The number of samples at this interval to tau_max, that at tau = 0 included. A sample that
 // rounding puts just above tau_max (3 x 0.1 > 0.3) is one of them.

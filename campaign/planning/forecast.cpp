@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "analysis/observables/coarse_grained.hpp"
@@ -27,12 +28,15 @@ constexpr double trustworthy = 0.2;
 constexpr double trial_seconds = 0.25;
 constexpr std::size_t trials_at_length = 10;
 
-// What storing a state takes beside the gas: the state, the same encoded in an array that has grown
-// by doubling, and a chunk of it in SQLite. [bytes per particle]
-constexpr double storing_bytes = 260;
+// What storing a state takes beside the gas: the state, the same encoded, and a chunk of it in
+// SQLite. [bytes per particle]
+constexpr double storing_bytes = 226;
 
-// A worker with no gas. [bytes]
-constexpr double program_bytes = 14e6;
+// What a worker holds beyond that, as measured: the program, and holes in the heap, which grow with
+// the gas until its arrays are so large that they are not a part of the heap. [bytes]
+constexpr double program_bytes = 17e6;
+constexpr double holes_per_particle = 100, most_holes = 15e6;
+constexpr double transform_bytes = 2.5e6;  // FFTW and its plans, where something takes them
 
 // One row of samples (12 numbers) and of jobs in SQLite, with their share of the index pages.
 constexpr double sample_bytes = 115;
@@ -145,8 +149,10 @@ double diffusion_points(const schema::Job& job) {
 // In the state: image numbers, and positions and velocities of every waiting time; the last
 // collision of every particle.
 double remembered_bytes(const schema::Job& job) {
-  const double points = diffusion_points(job);
-  const double diffusion = points > 0 ? 24 + 48 * points : 0;
+  std::set<double> waiting;
+  for (const std::string& observable : job.observables)
+    if (const auto time = schema::waiting_time(observable)) waiting.insert(*time);
+  const double diffusion = waiting.empty() ? 0 : 24 + 48.0 * static_cast<double>(waiting.size());
   const double collision = model_of(job).counts_collisions ? sizeof(double) : 0;
   return (diffusion + collision) * job.particles;
 }
@@ -174,6 +180,14 @@ double view_bytes(const schema::Job& job) {
     if (schema::is_field(observable)) arrays = std::max(arrays, 2 * field_bytes(job));
   }
   return arrays + 52.0 * job.particles;
+}
+
+double bytes_of_transforms(const schema::Job& job) {
+  const auto takes = [](const std::string& observable) {
+    return observable == "correlations" || observable == "structure" ||
+           observable == "energy_spectrum";
+  };
+  return std::ranges::any_of(job.observables, takes) ? transform_bytes : 0;
 }
 
 }  // namespace
@@ -212,9 +226,22 @@ double Forecast::cpu_seconds(const schema::Planned& plan) {
   return sum_of(prices(plan), plan);
 }
 
+// Snapshots wait for the next synchronization, some of them: a job does not let them become many.
+double Forecast::waiting_snapshots_bytes(const schema::Job& job) {
+  if (job.snapshots_at.empty()) return 0;
+  constexpr double period = engine::synchronization_period;
+  const double count =
+      static_cast<double>(count_through(job.snapshots_at.tau, period) +
+                          count_through(job.snapshots_at.time, expected_time(job, period)));
+  const double each = sizes_of(job).state * job.particles;
+  return std::min(count * each, static_cast<double>(most_waiting_snapshots) + each);
+}
+
 double Forecast::memory_bytes(const schema::Job& job) {
-  return program_bytes + sizes_of(job).engine * job.particles +
-         std::max(storing_bytes * job.particles, view_bytes(job)) + 3 * remembered_bytes(job);
+  return program_bytes + std::min(holes_per_particle * job.particles, most_holes) +
+         sizes_of(job).engine * job.particles +
+         std::max(storing_bytes * job.particles, view_bytes(job)) + 3 * remembered_bytes(job) +
+         waiting_snapshots_bytes(job) + bytes_of_transforms(job);
 }
 
 const Sizes& Forecast::sizes_of(const schema::Job& job) {
@@ -225,7 +252,9 @@ const Sizes& Forecast::sizes_of(const schema::Job& job) {
 
 double Forecast::disk_bytes(const schema::Planned& plan) {
   const Counts counts = counts_of(plan);
-  const double state = counts.commits > 0 ? sizes_of(plan.job).state : 0;
+  // What others start from is stored even where nothing was equilibrated.
+  const bool has_state = counts.commits > 0 || plan.job.kind == schema::Kind::equilibration;
+  const double state = has_state ? sizes_of(plan.job).state : 0;
   // A snapshot has no invariants and no memory, and is otherwise a state.
   const double kept = counts.snapshots > 0 ? sizes_of(plan.job).state * plan.job.particles : 0;
   return job_bytes + counts.snapshots * kept +

@@ -36,6 +36,7 @@ class Forecast {
   std::optional<double> known_seconds_per_collision(const schema::Job& job);
   const Prices& prices(const schema::Planned& plan);
   const Sizes& sizes_of(const schema::Job& job);
+  double waiting_snapshots_bytes(const schema::Job& job);
 
   // By what makes a job fast or slow.
   std::map<std::string, Work> known_;

@@ -3,6 +3,7 @@
 #include "campaign/run/worker.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
@@ -122,6 +123,15 @@ void work_on(schema::Selection& store, const schema::Claim& claim, const Reporte
   }
 }
 
+// The holes that a large gas leaves in the heap do not hold the next one: three gases of 150 000 would
+// take half as much again as one. Small jobs are over sooner than this. [particles]
+void give_memory_back(std::uint32_t particles) {
+  constexpr std::uint32_t large = 5000;
+#ifdef __GLIBC__
+  if (particles >= large) malloc_trim(0);
+#endif
+}
+
 }  // namespace
 
 std::optional<schema::Fit> what_fits(std::optional<Deadline> deadline) {
@@ -149,8 +159,10 @@ int work(const std::filesystem::path& path, int report_descriptor, const WorkerO
       const std::int64_t seen = store.change_counter();  // before the look that it is to guard
       const auto fit = what_fits(options.deadline);
       if (store.has_claimable(fit)) {
-        if (const auto claim = store.claim(me, code_version(), fit))
+        if (const auto claim = store.claim(me, code_version(), fit)) {
           work_on(store, *claim, reporter, options.share);
+          give_memory_back(claim->job.particles);
+        }
         continue;
       }
       reporter.send(IdleReport{});

@@ -25,7 +25,7 @@ using schema::Outcome;
 using schema::Planned;
 
 // A store without jobs: its tables, indexes and views. [bytes]
-constexpr double empty_store_bytes = 100e3;
+constexpr double empty_store_bytes = 180e3;
 
 // Equilibrations first, then by d, e, n, N.
 using GroupKey =

@@ -2,6 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
 #include "cli/program.hpp"
 
 using namespace haff::tests;
@@ -119,5 +124,65 @@ TEST_CASE("plan: a dense mixture of small spheres is planned by what fills the b
     const Outcome outcome = shell(folder, std::string("\"$campaign\" ") + command);
     CAPTURE(outcome.err);
     CHECK(outcome.exit_code == 0);
+  }
+}
+
+namespace {
+
+// What `plan` says and what `run` takes, in one worker.
+struct Taken {
+  double planned = 0, measured = 0;
+};
+
+struct Sizes {
+  Taken memory, disk;
+};
+
+Sizes sizes_of(const std::string& rest) {
+  const Folder folder;
+  folder.write("grid.json", R"({"e": 0.9, "seeds": 1, )" + rest + "}");
+  const Outcome plan = campaign(folder, {"plan", "grid.json", "--json"});
+  CAPTURE(plan.err);
+  REQUIRE(plan.exit_code == 0);
+  const auto json = nlohmann::json::parse(plan.out);
+  const Outcome run = campaign(folder, {"run", "--workers", "1", "--threads", "1"});
+  REQUIRE(run.exit_code == 0);
+  return {{json["memory_bytes_of_worker"], run.peak_bytes},
+          {json["disk_bytes"], static_cast<double>(std::filesystem::file_size(folder.store()))}};
+}
+
+}  // namespace
+
+TEST_CASE("plan: memory and disk are said within 15 %, for every effect and observable") {
+  const std::string gas = R"("n": 0.4, "N": 10000, "tau_max": 10, "equilibrate": 10)";
+  for (const std::string& scene : {
+           gas,
+           gas + R"(, "d": 2)",
+           gas + R"(, "effects": {"shuffle": {"every": 2}})",
+           gas + R"(, "effects": {"thermostat": {"rate": 0.05}})",
+           gas + R"(, "effects": {"roughness": {"beta": 0.5, "q": 0.4}})",
+           gas + R"(, "effects": {"mixture": {"fraction": 0.5, "diameter_ratio": 0.8,
+                                              "mass_ratio": 0.5}})",
+           gas + R"(, "profiles_every": 5, "observables": ["temperature", "laguerre",
+                      "distribution", "tail", "clusters", "cluster_sizes"])",
+           gas + R"(, "profiles_every": 5, "observables": ["temperature", "correlations",
+                      "structure", "energy_spectrum", "pair_distribution"])",
+           gas + R"(, "observables": ["temperature", "msd", "vacf", "collision_statistics"])",
+           gas + R"(, "fields_at": [5, 10], "observables": ["temperature", "fields"])",
+           gas + R"(, "snapshots_at": [1, 2, 5, 10])",
+           std::string(R"("n": 0.4, "N": 10000, "tau_max": 10, "start": "crystal")"),
+           std::string(R"("n": 0.4, "N": 1000, "tau_max": 100, "sample_every": 0.1)"),
+           std::string(R"("n": 0.001, "N": 10000, "tau_max": 10, "profiles_every": 5,
+                          "observables": ["temperature", "correlations", "structure"])"),
+           std::string(R"("n": 0.4, "N": 50000, "tau_max": 10)"),
+       }) {
+    CAPTURE(scene);
+    const Sizes sizes = sizes_of(scene);
+    CAPTURE(sizes.memory.planned);
+    CAPTURE(sizes.memory.measured);
+    CHECK(std::abs(sizes.memory.planned / sizes.memory.measured - 1) < 0.15);
+    CAPTURE(sizes.disk.planned);
+    CAPTURE(sizes.disk.measured);
+    CHECK(std::abs(sizes.disk.planned / sizes.disk.measured - 1) < 0.15);
   }
 }
