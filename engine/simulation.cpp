@@ -88,7 +88,7 @@ class Simulation::Implementation {
       if (model.effects.contains(std::string(other.effect)))
         return other.make(model, gas, state, backend);
     if (backend == SearchBackend::scalar || !gas.tells_images_apart())
-      return plain_variant(model, gas, state);
+      return plain_variant(model, state);
     if (gas.box.d == 2) return disks_variant(model, state);
     return spheres_variant(model, gas, state);
   }

@@ -10,6 +10,7 @@
 
 #include "engine/collision/smooth_collision.hpp"
 #include "engine/loop/engine_variant-inl.hpp"
+#include "engine/restitution/restitution_models.hpp"
 #include "engine/search/simd_search-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

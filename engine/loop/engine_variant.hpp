@@ -36,8 +36,7 @@ class EngineVariant {
 
 // Without SIMD: for boxes in which a particle can meet several images of another one, and for
 // comparison. Throws std::invalid_argument if there is no such restitution model.
-std::unique_ptr<EngineVariant> plain_variant(const Model& model, const Gas& gas,
-                                             const State& start);
+std::unique_ptr<EngineVariant> plain_variant(const Model& model, const State& start);
 
 // Smooth equal spheres, with SIMD. Throws likewise.
 std::unique_ptr<EngineVariant> spheres_variant(const Model& model, const Gas& gas,
@@ -45,6 +44,8 @@ std::unique_ptr<EngineVariant> spheres_variant(const Model& model, const Gas& ga
 
 // Any physics, on several threads. Throws likewise.
 std::unique_ptr<EngineVariant> parallel_variant(const Model& model, const State& start,
+                                                const Threads& threads);
+std::unique_ptr<EngineVariant> parallel_mixture(const Model& model, const State& start,
                                                 const Threads& threads);
 
 // Any physics, with its collisions counted. Throws likewise.

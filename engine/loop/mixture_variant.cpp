@@ -40,9 +40,8 @@ std::unique_ptr<EngineVariant> mixture_variant(const Model& model, const Gas& ga
                                                const State& start, SearchBackend backend) {
   if (backend == SearchBackend::simd && gas.tells_images_apart())
     return HWY_DYNAMIC_DISPATCH(simd_mixture)(model, start);
-  SmoothMixture physics(AnyRestitutionModel(model), TwoSpecies(model, start));
-  return gas.box.d == 2 ? HWY_NAMESPACE::plain<TwoSpecies, 2>(std::move(physics), gas, start)
-                        : HWY_NAMESPACE::plain<TwoSpecies, 3>(std::move(physics), gas, start);
+  return HWY_NAMESPACE::plain<TwoSpecies>(
+      SmoothMixture(AnyRestitutionModel(model), TwoSpecies(model, start)), start);
 }
 
 }  // namespace haff::engine

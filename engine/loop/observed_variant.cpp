@@ -10,7 +10,7 @@
 #include "engine/collision/observed_collision.hpp"
 #include "engine/collision/two_species.hpp"
 #include "engine/loop/engine_variant-inl.hpp"
-#include "engine/search/simd_search-inl.hpp"
+#include "engine/search/called_search-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
@@ -19,14 +19,10 @@ template <class PairGeometry>
 std::unique_ptr<EngineVariant> with_simd(ObservedCollision<PairGeometry> physics,
                                          const State& start) {
   using Physics = ObservedCollision<PairGeometry>;
-  if (start.d == 2)
-    return std::make_unique<VariantOf<SimdSearch<2, PairGeometry>, Physics>>(std::move(physics),
-                                                                             start);
-  if (start.id.size() < worth_prefetching)
-    return std::make_unique<VariantOf<SimdSearch<3, PairGeometry>, Physics>>(std::move(physics),
-                                                                             start);
-  return std::make_unique<VariantOf<SimdSearch<3, PairGeometry>, Physics, true>>(std::move(physics),
-                                                                                 start);
+  using Search = CalledSearch<PairGeometry>;
+  if (start.d == 2 || start.id.size() < worth_prefetching)
+    return std::make_unique<VariantOf<Search, Physics>>(std::move(physics), start);
+  return std::make_unique<VariantOf<Search, Physics, true>>(std::move(physics), start);
 }
 
 std::unique_ptr<EngineVariant> simd_observed(const Model& model, const State& start) {
@@ -43,24 +39,14 @@ namespace haff::engine {
 
 HWY_EXPORT(simd_observed);
 
-namespace {
-
-template <class PairGeometry>
-std::unique_ptr<EngineVariant> without_simd(ObservedCollision<PairGeometry> physics, const Gas& gas,
-                                            const State& start) {
-  return start.d == 2 ? HWY_NAMESPACE::plain<PairGeometry, 2>(std::move(physics), gas, start)
-                      : HWY_NAMESPACE::plain<PairGeometry, 3>(std::move(physics), gas, start);
-}
-
-}  // namespace
-
 std::unique_ptr<EngineVariant> observed_variant(const Model& model, const Gas& gas,
                                                 const State& start, SearchBackend backend) {
   if (backend == SearchBackend::simd && gas.tells_images_apart())
     return HWY_DYNAMIC_DISPATCH(simd_observed)(model, start);
   if (model.effects.contains("mixture"))
-    return without_simd(ObservedCollision<TwoSpecies>(model, TwoSpecies(model, start)), gas, start);
-  return without_simd(ObservedCollision<>(model), gas, start);
+    return HWY_NAMESPACE::plain<TwoSpecies>(
+        ObservedCollision<TwoSpecies>(model, TwoSpecies(model, start)), start);
+  return HWY_NAMESPACE::plain<HardSpheres>(ObservedCollision<>(model), start);
 }
 
 }  // namespace haff::engine

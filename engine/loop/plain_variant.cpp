@@ -10,11 +10,8 @@
 
 namespace haff::engine {
 
-std::unique_ptr<EngineVariant> plain_variant(const Model& model, const Gas& gas,
-                                             const State& start) {
-  SmoothCollision physics{AnyRestitutionModel(model)};
-  return gas.box.d == 2 ? HWY_NAMESPACE::plain<HardSpheres, 2>(std::move(physics), gas, start)
-                        : HWY_NAMESPACE::plain<HardSpheres, 3>(std::move(physics), gas, start);
+std::unique_ptr<EngineVariant> plain_variant(const Model& model, const State& start) {
+  return HWY_NAMESPACE::plain<HardSpheres>(SmoothCollision(AnyRestitutionModel(model)), start);
 }
 
 }  // namespace haff::engine

@@ -43,25 +43,13 @@ namespace haff::engine {
 
 HWY_EXPORT(simd_rough_particles);
 
-namespace {
-
-template <class PairGeometry>
-std::unique_ptr<EngineVariant> plain_rough(const Model& model, const Gas& gas, const State& start,
-                                           PairGeometry geometry) {
-  RoughCollision physics(model, std::move(geometry));
-  return start.d == 2 ? HWY_NAMESPACE::plain<PairGeometry, 2>(std::move(physics), gas, start)
-                      : HWY_NAMESPACE::plain<PairGeometry, 3>(std::move(physics), gas, start);
-}
-
-}  // namespace
-
 std::unique_ptr<EngineVariant> rough_variant(const Model& model, const Gas& gas, const State& start,
                                              SearchBackend backend) {
   if (backend == SearchBackend::simd && gas.tells_images_apart())
     return HWY_DYNAMIC_DISPATCH(simd_rough_particles)(model, start);
   if (model.effects.contains("mixture"))
-    return plain_rough(model, gas, start, TwoSpecies(model, start));
-  return plain_rough(model, gas, start, HardSpheres());
+    return HWY_NAMESPACE::plain<TwoSpecies>(RoughCollision(model, TwoSpecies(model, start)), start);
+  return HWY_NAMESPACE::plain<HardSpheres>(RoughCollision(model), start);
 }
 
 }  // namespace haff::engine

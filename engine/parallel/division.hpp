@@ -21,9 +21,9 @@ struct Division {
   // For each layer of cells of each brick, two for a brick: the time of the last event of a
   // particle in it, rounded, if it is within the reach of a zone.
   HugeVector<float> marks;
-  // Where the mark is of this layer (0 or 1) of a brick.
+  // Where the mark is of this layer (0 or 1) of a brick; bricks are counted.
   static std::size_t mark_of(std::uint32_t brick, std::uint32_t layer) {
-    return 2 * std::size_t{brick / Bricks::slots} + layer;
+    return 2 * std::size_t{brick} + layer;
   }
   // For each brick, the cells in it that an event which waits for the zones may read, one bit each:
   // what comes near them has to wait, too.

@@ -13,42 +13,34 @@
 
 #include <hwy/highway.h>
 
+#include "engine/parallel/any_loops.hpp"
 #include "engine/parallel/region_events-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-template <class Search, class Physics, bool prefetching>
-class OnePieceLoop
-    : public RegionEvents<OnePieceLoop<Search, Physics, prefetching>, Search, Physics> {
+template <class Search, class Physics>
+class OnePieceLoop final : public AnyOnePieceLoop,
+                           RegionEvents<OnePieceLoop<Search, Physics>, Search, Physics> {
   using Base = RegionEvents<OnePieceLoop, Search, Physics>;
   friend Base;
 
  public:
-  using AnyRegion = Region<typename Physics::Memento>;
-
-  // `region`: one that may send particles to all others.
-  OnePieceLoop(Gas& gas, Physics& physics, AnyRegion& region)
+  OnePieceLoop(Gas& gas, Physics& physics, Region& region)
       : Base(gas, physics), region_(region), queue_(&gas.queue[0]) {}
 
-  // Begins a stretch up to `end`; particles whose events come then are taken over, those of others
-  // are sent to their slabs.
-  void begin(double end) {
+  void begin(double end) override {
     end_ = end;
     queue_.clear();
   }
-  void take(std::uint32_t p) {
+  void take(std::uint32_t p) override {
     if (this->gas_.queue[p].time < end_)
       queue_.take(p);
     else
       send(p);
   }
 
-  // Works off the events in their order, as the event loop of one thread does, until the given
-  // total number of collisions. Returns false if the run is over: the number is reached, or the
-  // next event is later than `last`.
-  template <class Regions>
-  bool work(const Regions& regions, std::int64_t collisions, double last) {
+  bool work(const Regions& regions, std::int64_t collisions, double last) override {
     for (const auto& region : regions) {
       region->take_mail(regions);
       take_from(region->queue);
@@ -62,8 +54,7 @@ class OnePieceLoop
   }
 
  private:
-  template <class Queue>
-  void take_from(Queue& queue) {
+  void take_from(LadderQueueOf<OwnParticles>& queue) {
     for (;;) {
       const std::uint32_t p = queue.next([this](std::uint32_t q) { return this->rank(q); });
       if (p == LadderQueue::nothing) return;
@@ -77,7 +68,7 @@ class OnePieceLoop
 
   bool work_queue(std::int64_t collisions, double last) {
     while (this->gas_.clock.collisions < collisions) {
-      if constexpr (prefetching) this->prefetch_coming(queue_, [](Cell) { return true; });
+      this->prefetch_coming(queue_, [](Cell) { return true; });
       const std::uint32_t p = queue_.next([this](std::uint32_t q) { return this->rank(q); });
       if (p == WindowQueue::nothing) return true;
       const Event& event = this->gas_.queue[p];
@@ -124,7 +115,7 @@ class OnePieceLoop
       send(p);
   }
 
-  AnyRegion& region_;
+  Region& region_;
   double end_ = 0;
   WindowQueue queue_;
 };

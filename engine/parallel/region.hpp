@@ -20,11 +20,12 @@ namespace haff::engine {
 enum class Phase : std::uint8_t { slab, zone };
 inline constexpr std::size_t phases = 2;
 
-template <class Memento>
-struct alignas(64) Region {
+// (Aligned, like the loops of a region, to two cache lines, which the processor fetches together:
+// no thread writes to one that another reads.)
+struct alignas(128) Region {
   // What happened in one phase.
   struct Done {
-    UndoLog<Memento> log;
+    UndoLog log;
     std::vector<CollisionRecord> collisions;  // in the order of time
     Events events;
     // Whether an event was found that only the loop of one thread can process in its order.

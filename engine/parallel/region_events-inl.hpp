@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <type_traits>
 
 #include "engine/loop/watchdog.hpp"
 #include "engine/parallel/region.hpp"
@@ -23,6 +24,24 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
+
+// What collisions have changed in a window beside the records of the particles.
+template <class Physics>
+class Mementos {
+  using Memento = typename Physics::Memento;
+
+ public:
+  void clear() { tape_.clear(); }
+  HWY_INLINE void add(const Memento& memento) {
+    if constexpr (!std::is_empty_v<Memento>) tape_.add(memento);
+  }
+  void restore(Physics& physics) const {
+    for (const Memento* saved = tape_.end(); saved != tape_.begin();) physics.restore(*--saved);
+  }
+
+ private:
+  Tape<Memento> tape_;
+};
 
 // `Loop` derives from this and has
 //   void keep(p)        keeps the event of p as it is, before it changes;
@@ -88,13 +107,13 @@ class RegionEvents {
   }
 
   // A collision within a window that may have to be undone.
-  template <class Done>
-  HWY_INLINE void meet_for_now(std::uint32_t p, std::uint32_t q, Done& done, double& closest2) {
+  HWY_INLINE void meet_for_now(std::uint32_t p, std::uint32_t q, Region::Done& done,
+                               double& closest2) {
     Particle& a = gas_.particles[p];
     Particle& b = gas_.particles[q];
     done.log.save(p, a);
     done.log.save(q, b);
-    done.log.save(physics_.memento(a, b));
+    mementos_.add(physics_.memento(a, b));
     CollisionTerms terms;
     const double approach = physics_.collide(a, b, now_, gas_.box, terms);
     if (approach > -slow_approach) [[unlikely]]
@@ -106,10 +125,7 @@ class RegionEvents {
   }
 
   // Sends the event of p to the queue of the slab that p is in, for a later window.
-  template <class AnyRegion>
-  void send(std::uint32_t p, AnyRegion& from) {
-    from.send(p, gas_.queue[p]);
-  }
+  void send(std::uint32_t p, Region& from) { from.send(p, gas_.queue[p]); }
 
   HWY_INLINE void set_prediction(std::uint32_t p, const Contact& contact) {
     Event& event = gas_.queue[p];
@@ -126,6 +142,21 @@ class RegionEvents {
     event.face = static_cast<std::uint8_t>(
         choose(event.contact_time <= exit.time, Event::contact, exit.face));
     loop().put(p);
+  }
+
+  // Calls visit(n, brick, in_next_layer) for the bricks around a cell, in the order of
+  // Bricks::around(): `brick` counts bricks; the first half of them is in the layer of bricks that
+  // the cell is in, the second half in the next one that has neighbours of the cell.
+  template <class Visit>
+  HWY_INLINE void visit_bricks_around(Cell cell, const Visit& visit) const {
+    const auto visit_all = [&](const auto& bricks) __attribute__((always_inline)) {
+      for (std::size_t n = 0; n < bricks.size(); ++n)
+        visit(n, bricks[n] / Bricks::slots, n >= bricks.size() / 2);
+    };
+    if (gas_.box.d == 2)
+      visit_all(gas_.bricks.template around<2>(cell).brick);
+    else
+      visit_all(gas_.bricks.template around<3>(cell).brick);
   }
 
   // Prefetches what the next events of a window's queue need, as in the event loop of one thread.
@@ -162,6 +193,7 @@ class RegionEvents {
   Physics& physics_;
   Search search_;
   double now_ = 0;
+  Mementos<Physics> mementos_;
 
  private:
   Loop& loop() { return static_cast<Loop&>(*this); }

@@ -19,25 +19,26 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/parallel/any_loops.hpp"
 #include "engine/parallel/region_events-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-template <class Search, class Physics, int dimension, bool prefetching>
-class SlabLoop
-    : public RegionEvents<SlabLoop<Search, Physics, dimension, prefetching>, Search, Physics> {
+template <class Search, class Physics>
+class alignas(128) SlabLoop final : public AnySlabLoop,
+                                    RegionEvents<SlabLoop<Search, Physics>, Search, Physics> {
   using Base = RegionEvents<SlabLoop, Search, Physics>;
   friend Base;
 
  public:
-  using OwnRegion = Region<typename Physics::Memento>;
-
-  SlabLoop(Gas& gas, Physics& physics, OwnRegion& region)
+  SlabLoop(Gas& gas, Physics& physics, Region& region)
       : Base(gas, physics), region_(region), division_(region.division) {}
 
-  // After a synchronization: finds the first contacts of a part of all particles.
-  void predict(std::uint32_t begin, std::uint32_t end) {
+  void begin_window() override { this->mementos_.clear(); }
+  void undo_collisions() override { this->mementos_.restore(this->physics_); }
+
+  void predict(std::uint32_t begin, std::uint32_t end) override {
     this->now_ = 0;
     is_beginning_ = true;
     for (std::uint32_t p = begin; p < end; ++p)
@@ -45,8 +46,8 @@ class SlabLoop
     is_beginning_ = false;
   }
 
-  // The events from `begin` to `end`. An exception is a matter for the loop of one thread.
-  void work(double begin, double end) try {
+  // An exception is a matter for the loop of one thread.
+  void work(double begin, double end) override try {
     this->now_ = begin;
     slab_ = region_.slab();
     reach_ = Slab::border;
@@ -58,7 +59,7 @@ class SlabLoop
         region_.queue.put_back();
         break;
       }
-      if constexpr (prefetching) prefetch_upcoming();
+      prefetch_upcoming();
       if (event.time < this->now_) [[unlikely]] {
         // Rounding: only the loop of one thread knows what the present time is then.
         region_.queue.put_back();
@@ -118,10 +119,10 @@ class SlabLoop
            (slab_.may_work_in(cell) && !is_frozen(cell));
   }
   HWY_NOINLINE bool is_frozen(Cell cell) const {
-    const auto bricks = this->gas_.bricks.template around<dimension>(cell).brick;
     unsigned frozen = 0;
-    for (std::size_t n = 0; n < bricks.size(); ++n)
-      frozen |= division_.frozen[bricks[n] / Bricks::slots] & Bricks::near_cells(n, cell);
+    this->visit_bricks_around(cell, [&](std::size_t n, std::uint32_t brick, bool) {
+      frozen |= division_.frozen[brick] & Bricks::near_cells(n, cell);
+    });
     return frozen != 0;
   }
 
@@ -138,17 +139,14 @@ class SlabLoop
 
   // Freezes the cells around a cell, those in the own slab.
   void freeze(Cell cell) {
-    const auto bricks = this->gas_.bricks.template around<dimension>(cell).brick;
     const bool own = slab_.holds_brick_of(cell);
     const bool next = slab_.holds_brick_next_to(cell);
-    // The first half of the bricks is in the layer of the cell, the second half in the next one.
     // Nothing in this slab reads a brick that belongs to two slabs.
-    for (std::size_t n = 0; n < bricks.size(); ++n) {
-      if (!(n < bricks.size() / 2 ? own : next)) continue;
-      const std::uint32_t brick = bricks[n] / Bricks::slots;
+    this->visit_bricks_around(cell, [&](std::size_t n, std::uint32_t brick, bool in_next_layer) {
+      if (!(in_next_layer ? next : own)) return;
       if (division_.frozen[brick] == 0) frozen_.push_back(brick);
       division_.frozen[brick] |= Bricks::near_cells(n, cell);
-    }
+    });
     // An event that waits reads one layer of cells more than its own, and so does one that does
     // not.
     reach_ = std::max(reach_, slab_.depth(cell) + 3);
@@ -164,7 +162,7 @@ class SlabLoop
   HWY_INLINE void keep(std::uint32_t p) { done_.log.save(p, this->gas_.queue[p]); }
   HWY_INLINE void touch(Cell cell) {
     if (HWY_UNLIKELY(!slab_.is_deep(cell)))
-      division_.marks[Division::mark_of(this->gas_.bricks.brick_of(cell),
+      division_.marks[Division::mark_of(this->gas_.bricks.brick_of(cell) / Bricks::slots,
                                         cell[this->gas_.bricks.last_axis()] % 2)] =
           static_cast<float>(this->now_);
   }
@@ -226,8 +224,8 @@ class SlabLoop
 
   static constexpr std::uint32_t stride = foresight / 4;
 
-  OwnRegion& region_;
-  typename OwnRegion::Done& done_ = region_.in(Phase::slab);
+  Region& region_;
+  Region::Done& done_ = region_.in(Phase::slab);
   Division& division_;
   Slab slab_;
   bool is_beginning_ = false;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 #include "engine/particles/particle.hpp"
@@ -38,15 +37,12 @@ class Tape {
   std::size_t count_ = 0;
 };
 
-// `Memento`: what a collision changes beside the records.
-template <class Memento>
 class UndoLog {
  public:
   void clear() {
     events_.clear();
     records_.clear();
     changed_.clear();
-    mementos_.clear();
   }
   [[gnu::always_inline]] void save(std::uint32_t particle, const Event& event) {
     events_.add({event, particle});
@@ -55,15 +51,10 @@ class UndoLog {
     records_.add(record);
     changed_.add(particle);
   }
-  [[gnu::always_inline]] void save(const Memento& memento) {
-    if constexpr (!std::is_empty_v<Memento>) mementos_.add(memento);
-  }
 
   // Calls these with everything that was saved, the latest first.
-  template <class RestoreEvent, class RestoreRecord, class RestoreMemento>
-  void undo(const RestoreEvent& event, const RestoreRecord& record,
-            const RestoreMemento& memento) const {
-    for (const Memento* saved = mementos_.end(); saved != mementos_.begin();) memento(*--saved);
+  template <class RestoreEvent, class RestoreRecord>
+  void undo(const RestoreEvent& event, const RestoreRecord& record) const {
     for (std::size_t k = records_.size(); k-- > 0;)
       record(changed_.begin()[k], records_.begin()[k]);
     for (const SavedEvent* saved = events_.end(); saved != events_.begin();) {
@@ -77,9 +68,7 @@ class UndoLog {
     for (const SavedEvent& saved : events_) visit(saved.particle);
   }
 
-  std::size_t memory() const {
-    return events_.memory() + records_.memory() + changed_.memory() + mementos_.memory();
-  }
+  std::size_t memory() const { return events_.memory() + records_.memory() + changed_.memory(); }
 
  private:
   struct SavedEvent {
@@ -89,7 +78,6 @@ class UndoLog {
   Tape<SavedEvent> events_;
   Tape<Particle> records_;
   Tape<std::uint32_t> changed_;  // whose records these are
-  Tape<Memento> mementos_;
 };
 
 }  // namespace haff::engine

@@ -31,35 +31,34 @@
 #include <algorithm>
 #include <atomic>
 
+#include "engine/parallel/any_loops.hpp"
 #include "engine/parallel/region_events-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-template <class Search, class Physics, int dimension, bool prefetching>
-class ZoneLoop
-    : public RegionEvents<ZoneLoop<Search, Physics, dimension, prefetching>, Search, Physics> {
+template <class Search, class Physics>
+class alignas(128) ZoneLoop final : public AnyZoneLoop,
+                                    RegionEvents<ZoneLoop<Search, Physics>, Search, Physics> {
   using Base = RegionEvents<ZoneLoop, Search, Physics>;
   friend Base;
 
  public:
-  using OwnRegion = Region<typename Physics::Memento>;
-
-  ZoneLoop(Gas& gas, Physics& physics, OwnRegion& region)
+  ZoneLoop(Gas& gas, Physics& physics, Region& region)
       : Base(gas, physics), region_(region), division_(region.division), queue_(&gas.queue[0]) {}
 
-  // The events that all regions have deferred to this zone, from `begin` to `end`. An exception is
-  // a matter for the loop of one thread.
-  template <class Regions>
-  void work(const Regions& regions, double begin, double end) try {
+  void begin_window() override { this->mementos_.clear(); }
+  void undo_collisions() override { this->mementos_.restore(this->physics_); }
+
+  // An exception is a matter for the loop of one thread.
+  void work(const Regions& regions, double begin, double end) override try {
     this->now_ = begin;
     end_ = end;
     zone_ = region_.zone();
     queue_.clear();
     for (const auto& region : regions) queue_.merge(region->deferred[region_.number]);
     while (!done_.violated) {
-      if constexpr (prefetching)
-        this->prefetch_coming(queue_, [this](Cell cell) { return zone_.may_work_in(cell); });
+      this->prefetch_coming(queue_, [this](Cell cell) { return zone_.may_work_in(cell); });
       const std::uint32_t p = queue_.next([this](std::uint32_t q) { return this->rank(q); });
       if (p == WindowQueue::nothing) break;
       if (!process(p)) done_.violated = true;
@@ -96,16 +95,14 @@ class ZoneLoop
 
   bool may_touch(Cell cell, double time) const {
     if (!zone_.may_work_in(cell)) return false;
-    // The first half of the bricks has the layer of the cell and one next to it; of the second
-    // half, one layer is next to the cell.
-    const auto bricks = this->gas_.bricks.template around<dimension>(cell).brick;
+    // The layer of bricks of the cell has the layer of the cell and one next to it; of the next
+    // layer of bricks, one layer of cells is next to the cell.
     const std::uint32_t near = 1 - cell[this->gas_.bricks.last_axis()] % 2;
     float latest = never_marked;
-    for (std::size_t n = 0; n < bricks.size() / 2; ++n)
-      latest = std::max({latest, division_.marks[Division::mark_of(bricks[n], 0)],
-                         division_.marks[Division::mark_of(bricks[n], 1)]});
-    for (std::size_t n = bricks.size() / 2; n < bricks.size(); ++n)
-      latest = std::max(latest, division_.marks[Division::mark_of(bricks[n], near)]);
+    this->visit_bricks_around(cell, [&](std::size_t, std::uint32_t brick, bool in_next_layer) {
+      const float* const marks = &division_.marks[Division::mark_of(brick, 0)];
+      latest = std::max(latest, in_next_layer ? marks[near] : std::max(marks[0], marks[1]));
+    });
     // Rounding a time keeps the order; so a mark that is rounded to the same number may be later.
     return latest < static_cast<float>(time);
   }
@@ -123,8 +120,8 @@ class ZoneLoop
       this->send(p, region_);
   }
 
-  OwnRegion& region_;
-  typename OwnRegion::Done& done_ = region_.in(Phase::zone);
+  Region& region_;
+  Region::Done& done_ = region_.in(Phase::zone);
   Division& division_;
   Zone zone_;
   double end_ = 0;

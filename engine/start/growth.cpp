@@ -22,26 +22,14 @@ constexpr double growth_rate = 0.02;
 // synchronizations. [sigma]
 constexpr double least_growth = 1e-5;
 
-// The distance of the centres at contact of two full-grown particles. [sigma]
-struct EqualSizes {
-  static constexpr double contact_distance(const Particle&, const Particle&) { return 1; }
-};
-struct TwoSizes {
-  Mixture mixture;
-  double contact_distance(const Particle& a, const Particle& b) const {
-    return mixture.contact_distance(a.id, b.id);
-  }
-};
-
 // Elastic spheres that have grown to the part `diameter` + growth_rate * (time since the
 // synchronization) of their final size.
-template <class Sizes>
 struct GrowingSpheres {
   double diameter;
-  Sizes sizes;
+  Mixture sizes;  // when full-grown
 
   double contact_time(const Encounter& pair, const Particle& a, const Particle& b) const {
-    const double size = sizes.contact_distance(a, b);
+    const double size = sizes.contact_distance(a.id, b.id);
     const double rate = growth_rate * size;
     const double wide = (diameter + growth_rate * pair.start) * size;
     const double approach = dot(pair.r, pair.v) - wide * rate;
@@ -59,7 +47,7 @@ struct GrowingSpheres {
     const Encounter contact(a, b, now, box);
     const double distance2 = dot(contact.r, contact.r);
     // Reflected in the frame of the surfaces, which part at the rate at which the two grow.
-    const double rate = growth_rate * sizes.contact_distance(a, b);
+    const double rate = growth_rate * sizes.contact_distance(a.id, b.id);
     const double change = dot(contact.r, contact.v) / distance2 - rate / std::sqrt(distance2);
     for (std::size_t k = 0; k < 3; ++k) {
       a.velocity[k] += change * contact.r[k];
@@ -71,8 +59,8 @@ struct GrowingSpheres {
   }
 };
 
-template <class Spheres, class Candidates, int d>
-using Loop = HWY_NAMESPACE::EventLoop<PlainSearch<Spheres, Candidates, d>, Spheres>;
+template <class Candidates, int d>
+using Loop = HWY_NAMESPACE::EventLoop<PlainSearch<GrowingSpheres, Candidates, d>, GrowingSpheres>;
 
 State random_points(std::uint32_t count, const Box& box, std::uint64_t seed) {
   Random random(seed, Stream::growth);
@@ -98,15 +86,15 @@ void cool(Gas& gas) {
 }
 
 // Runs until the next synchronization, or until the spheres are full-grown.
-template <class Candidates, int d, class Spheres>
-void grow_among(Gas& gas, Spheres spheres, std::int64_t collisions) {
-  Loop<Spheres, Candidates, d> loop(gas, spheres);
+template <class Candidates, int d>
+void grow_among(Gas& gas, GrowingSpheres spheres, std::int64_t collisions) {
+  Loop<Candidates, d> loop(gas, spheres);
   loop.predict_all();
   loop.run(collisions, (1 - spheres.diameter) / growth_rate);
 }
 
-template <int d, class Spheres>
-void grow(Gas& gas, const Spheres& spheres, std::int64_t collisions) {
+template <int d>
+void grow(Gas& gas, const GrowingSpheres& spheres, std::int64_t collisions) {
   if (!Bricks::fits(gas.box))
     grow_among<AllParticlesAllImages, d>(gas, spheres, collisions);
   else if (!gas.bricks.tell_images_apart())
@@ -115,17 +103,16 @@ void grow(Gas& gas, const Spheres& spheres, std::int64_t collisions) {
     grow_among<NearbyNearestImage, d>(gas, spheres, collisions);
 }
 
-template <class Sizes>
-void grow_to_full_size(Gas& gas, const Sizes& sizes) {
+void grow_to_full_size(Gas& gas, const Mixture& sizes) {
   for (double diameter = 0; diameter < 1;) {
     cool(gas);
     prepare(gas);
     const auto count = static_cast<std::uint32_t>(gas.particles.size());
     const std::int64_t stop = next_synchronization(gas.clock.collisions, count);
     if (gas.box.d == 2)
-      grow<2>(gas, GrowingSpheres<Sizes>{diameter, sizes}, stop);
+      grow<2>(gas, {diameter, sizes}, stop);
     else
-      grow<3>(gas, GrowingSpheres<Sizes>{diameter, sizes}, stop);
+      grow<3>(gas, {diameter, sizes}, stop);
     const double growth = growth_rate * gas.clock.now;
     const bool full_grown = gas.clock.collisions < stop;  // stopped by time
     if (!full_grown && growth < least_growth)
@@ -142,10 +129,7 @@ void grow_to_full_size(Gas& gas, const Sizes& sizes) {
 std::vector<Vector> grown_positions(std::uint32_t count, const Box& box, std::uint64_t seed,
                                     const std::optional<Mixture>& mixture) {
   Gas gas(random_points(count, box, seed));
-  if (mixture)
-    grow_to_full_size(gas, TwoSizes{*mixture});
-  else
-    grow_to_full_size(gas, EqualSizes{});
+  grow_to_full_size(gas, mixture.value_or(Mixture{}));  // without one, all sizes are 1
   std::vector<Vector> positions(count);
   for (const Particle& p : gas.particles) positions[p.id] = p.position;
   return positions;

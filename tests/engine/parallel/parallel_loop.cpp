@@ -19,9 +19,7 @@ using namespace haff::tests;
 // What is tested here is independent of how threads are scheduled, so one thread may work off all
 // slabs; real_threads.cpp has real threads.
 TEST_CASE("slabs: every effect, spheres and disks, in two to four slabs") {
-  for (const Scene& scene : scenes()) {
-    CAPTURE(scene.name);
-    const State start = initial_state(scene.n, scene.particles, 1, scene.d, scene.model.effects);
+  for_each_scene(1, all_scenes, [](const Scene& scene, const State& start) {
     std::vector<std::unique_ptr<Simulation>> divided;
     Simulation one(scene.model, start);
     // Windows of random length, 5 to 60 collisions, and stops at random collisions. In slabs as
@@ -49,14 +47,11 @@ TEST_CASE("slabs: every effect, spheres and disks, in two to four slabs") {
     }
     REQUIRE(one.synchronized());
     for (const auto& several : divided) CHECK(several->state() == one.state());
-  }
+  });
 }
 
 TEST_CASE("threads: windows far too long are noticed, undone and repaired") {
-  for (const Scene& scene : scenes()) {
-    if (scene.name != "inelastic" && scene.name != "rough" && scene.name != "disks") continue;
-    CAPTURE(scene.name);
-    const State start = initial_state(scene.n, scene.particles, 2, scene.d, scene.model.effects);
+  for_each_scene(2, undone_scenes, [](const Scene& scene, const State& start) {
     for (const double window : {0.05, 0.3, 1.0}) {
       CAPTURE(window);
       Simulation one(scene.model, start);
@@ -72,7 +67,7 @@ TEST_CASE("threads: windows far too long are noticed, undone and repaired") {
       // Thin slabs and so many collisions: nearly every window has an event that came too early.
       CHECK(several.windows()->repaired > several.windows()->count / 2);
     }
-  }
+  });
 }
 
 TEST_CASE("threads: a run may change their number wherever it is stored") {

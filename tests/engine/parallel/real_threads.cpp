@@ -13,9 +13,7 @@ using namespace haff::tests;
 // Few collisions, since on a busy machine threads that wait for each other do so for long. Shuffled
 // and heated gases are synchronized on the way.
 TEST_CASE("real threads: every effect, spheres and disks, on two to four") {
-  for (const Scene& scene : scenes()) {
-    CAPTURE(scene.name);
-    const State start = initial_state(scene.n, scene.particles, 1, scene.d, scene.model.effects);
+  for_each_scene(1, all_scenes, [](const Scene& scene, const State& start) {
     const bool acts = scene.name == "shuffle" || scene.name == "thermostat";
     const std::int64_t last = collisions_at(acts ? 1.1 : 0.3, scene.particles);
     Simulation one(scene.model, start);
@@ -28,21 +26,18 @@ TEST_CASE("real threads: every effect, spheres and disks, on two to four") {
       check_same(one, several);
       CHECK(several.windows()->in_slabs > 0);
     }
-  }
+  });
 }
 
 TEST_CASE("real threads: windows that are undone") {
-  for (const Scene& scene : scenes()) {
-    if (scene.name != "inelastic" && scene.name != "rough" && scene.name != "disks") continue;
-    CAPTURE(scene.name);
-    const State start = initial_state(scene.n, scene.particles, 2, scene.d, scene.model.effects);
+  for_each_scene(2, undone_scenes, [](const Scene& scene, const State& start) {
     Simulation one(scene.model, start);
     one.run_to(collisions_at(1, scene.particles));
     Simulation several(scene.model, start, SearchBackend::simd, {.count = 3, .window = 0.1});
     several.run_to(collisions_at(1, scene.particles));
     check_same(one, several);
     CHECK(several.windows()->repaired > 0);
-  }
+  });
 }
 
 TEST_CASE("real threads: through a synchronization") {

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,25 @@ inline std::vector<Scene> scenes() {
       {"mixed disks", {.restitution = 0.8, .effects = {{"mixture", mixed}}}, 2, 0.4, 4000},
   };
 }
+
+// Calls test(scene, start), where start is the scene's initial state for this seed, for all scenes,
+// or for the named ones.
+template <class Test>
+void for_each_scene(std::uint64_t seed, const std::vector<std::string>& names, const Test& test) {
+  std::size_t tested = 0;
+  for (const Scene& scene : scenes()) {
+    if (!names.empty() && std::find(names.begin(), names.end(), scene.name) == names.end())
+      continue;
+    CAPTURE(scene.name);
+    ++tested;
+    test(scene,
+         engine::initial_state(scene.n, scene.particles, seed, scene.d, scene.model.effects));
+  }
+  CHECK(tested == (names.empty() ? scenes().size() : names.size()));
+}
+inline const std::vector<std::string> all_scenes;
+// One of each kind of region: spheres, spheres with spins, disks.
+inline const std::vector<std::string> undone_scenes{"inelastic", "rough", "disks"};
 
 // Everything that can be seen of a gas at any time.
 inline void check_same(const engine::Simulation& one, const engine::Simulation& several) {
