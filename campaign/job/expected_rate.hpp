@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The collision rate that Enskog's theory expects of a homogeneous gas: how often a particle collides
-// in a unit of time. In a mixture chi is that of equal particles of the same packing fraction.
+// The collision rate that Enskog's theory expects of a homogeneous gas: how often a particle
+// collides in a unit of time. In a mixture chi is that of equal particles of the same packing
+// fraction.
 #pragma once
 
 #include "schema/grid/job.hpp"

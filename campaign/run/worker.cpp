@@ -123,8 +123,8 @@ void work_on(schema::Selection& store, const schema::Claim& claim, const Reporte
   }
 }
 
-// The holes that a large gas leaves in the heap do not hold the next one: three gases of 150 000 would
-// take half as much again as one. Small jobs are over sooner than this. [particles]
+// The holes that a large gas leaves in the heap do not hold the next one: three gases of 150 000
+// would take half as much again as one. Small jobs are over sooner than this. [particles]
 void give_memory_back(std::uint32_t particles) {
   constexpr std::uint32_t large = 5000;
 #ifdef __GLIBC__
