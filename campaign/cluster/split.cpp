@@ -5,8 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <system_error>
+
+#include "schema/file/flush.hpp"
 
 namespace haff::campaign {
 namespace {
@@ -31,8 +34,8 @@ void must_be_free(const fs::path& path) {
                              ": is there already; move it away, or name another folder with --out");
 }
 
-// Writes a shard under a name of its own and gives it the right one when it is whole: a file of
-// that name is never half a shard.
+// Writes a shard under a name of its own and gives it the right one when it is whole and on the
+// disk: a file of that name is never half a shard.
 void write_shard(const schema::Store& store, const WrittenShard& shard) {
   fs::path unfinished = shard.path;
   unfinished += ".unfinished";
@@ -47,6 +50,10 @@ void write_shard(const schema::Store& store, const WrittenShard& shard) {
       copy.become_shard(store.campaign_id(), shard.name);
       for (const std::int64_t job_id : shard.share.jobs) copy.take_over(store, job_id);
     }  // closed: all of it is in the file itself, with no log beside it
+    if (!schema::flush_to_disk(unfinished))
+      throw schema::DiskError(fmt::format("{}: cannot be written to the disk ({})",
+                                          shard.path.string(),
+                                          std::generic_category().message(errno)));
     fs::rename(unfinished, shard.path);
   } catch (...) {
     remove_leftovers();

@@ -25,6 +25,7 @@
 
 #include "campaign/base/process/signals.hpp"
 #include "campaign/base/text/error_text.hpp"
+#include "schema/file/flush.hpp"
 #include "schema/store/store.hpp"
 
 namespace haff::campaign {
@@ -147,13 +148,6 @@ class Claimed {
   std::string mine_;
 };
 
-void flush_to_disk(const fs::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return;
-  fsync(file);
-  close(file);
-}
-
 // The shard as it is at this moment, in place of the one in the user's folder; unless another task
 // has claimed that one meanwhile. Whether it was put back.
 bool put_back(const fs::path& working, const fs::path& shard, const Claimed& claimed) {
@@ -162,11 +156,10 @@ bool put_back(const fs::path& working, const fs::path& shard, const Claimed& cla
   fs::remove(part, ignored);
   try {
     schema::Reader(working).back_up(part);
-    flush_to_disk(part);
     const bool is_still_ours = claimed.still();
     if (is_still_ours) fs::rename(part, shard);
     fs::remove(part, ignored);
-    flush_to_disk(shard.parent_path());
+    schema::flush_to_disk(shard.parent_path());
     return is_still_ours;
   } catch (...) {
     fs::remove(part, ignored);

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "schema/file/flush.hpp"
 #include "schema/file/journal.hpp"
 #include "schema/file/patience.hpp"
 
@@ -85,13 +86,6 @@ void must_be_sound(SQLite::Database& copy, const std::filesystem::path& store) {
   throw NameError(to.string() + ": exists already and is left alone; name another file");
 }
 
-void flush(const std::filesystem::path& file_or_folder) {
-  const int opened = ::open(file_or_folder.c_str(), O_RDONLY | O_CLOEXEC);
-  if (opened < 0) return;
-  fsync(opened);
-  close(opened);
-}
-
 // Unlike rename(2), replaces nothing.
 void give_name(const std::filesystem::path& made, const std::filesystem::path& wanted,
                const std::filesystem::path& to) {
@@ -102,7 +96,7 @@ void give_name(const std::filesystem::path& made, const std::filesystem::path& w
       throw DiskError(to.string() + ": cannot be given its name (" +
                       std::generic_category().message(errno) + ")");
   }
-  flush(wanted.parent_path());
+  flush_to_disk(wanted.parent_path());
 }
 
 // A file that is gone with its owner, unless it was given another name.
@@ -139,7 +133,7 @@ std::uintmax_t back_up(Database& database, const std::filesystem::path& to) {
     raise(to, error);
   }
   draw_counter(unfinished.file());
-  flush(unfinished.file());
+  flush_to_disk(unfinished.file());
   const auto bytes = std::filesystem::file_size(unfinished.file());
   give_name(unfinished.file(), wanted, to);
   return bytes;
