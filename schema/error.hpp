@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // What can go wrong with a store. Each message names the file and what is wrong, and says what a
-// person can do about it. Which command of a program would help, only the program knows: it is told
-// the kind of remedy.
+// person can do about it. Only the program knows which of its commands would help, so that an error
+// carries the kind of its remedy.
 #pragma once
 
 #include <filesystem>
@@ -55,8 +55,8 @@ struct DiskError : Unavailable {
   using Unavailable::Unavailable;
 };
 
-// The job this writer worked on belongs to another writer now, or to none. Nothing was written:
-// stop working on it.
+// The job that this writer worked on belongs to another writer now, or to none. Nothing was
+// written: the writer is to stop working on it.
 struct LeaseLost : StoreError {
   using StoreError::StoreError;
 };
@@ -73,7 +73,7 @@ struct DamagedFile : Damage {
   using Damage::Damage;
 };
 
-// SQL that does not parse, asks for what is not there, or would write.
+// SQL that does not parse, that asks for what is not there, or that would write.
 struct QueryError : StoreError {
   using StoreError::StoreError;
 };

@@ -22,7 +22,7 @@ namespace haff::schema {
 
 namespace {
 
-// A process that writes the store when the copy is to begin is waited for.
+// Waits for a process that is writing the store when the copy is to begin.
 void copy(SQLite::Database& from, SQLite::Database& to) {
   constexpr std::chrono::milliseconds pause{20};
   constexpr int all_pages = -1;
@@ -37,8 +37,8 @@ void copy(SQLite::Database& from, SQLite::Database& to) {
   }
 }
 
-// Their workers know nothing of the copy: no process holds them in it. A job whose row is damaged
-// stays as it is, and known as that. A copy of an older version has no digests.
+// Running jobs are pending in the copy, of which their workers know nothing. A job whose row is
+// damaged stays as it is and stays known as damaged. A copy of an older version has no digests.
 void give_back_running_jobs(SQLite::Database& copy) {
   const bool has_digests = copy.tableExists("digests");
   Digests digests(copy);

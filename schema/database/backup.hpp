@@ -11,7 +11,7 @@
 namespace haff::schema {
 
 // Reader::back_up. The copy is made under a name of its own and gets the wanted one when it is
-// whole and on the disk: a backup that was cut off is not taken for one.
+// whole and on the disk, so that a backup that was cut off is not taken for a whole one.
 std::uintmax_t back_up(Database& database, const std::filesystem::path& to);
 
 }  // namespace haff::schema

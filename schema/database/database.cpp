@@ -32,9 +32,9 @@ bool has_log(const std::filesystem::path& file) {
   return std::filesystem::exists(log, none) && std::filesystem::file_size(log, none) > 0;
 }
 
-// A file at rest has no log: SQLite deletes the log before it says so in the file, and says that
-// there is one before it makes it. A log beside such a file is that of the file that was there
-// before it, and SQLite would take the pages of the one for those of the other.
+// A file at rest has no log: SQLite deletes the log before the file says so, and the file says that
+// there is a log before SQLite makes it. A log beside a file at rest belongs to a file that was
+// there before, and SQLite would take its pages for pages of this file.
 void must_be_log_of(SQLite::Database& sqlite, const std::filesystem::path& file,
                     const std::filesystem::path& name) {
   const auto is_at_rest = [&] {
@@ -54,13 +54,13 @@ std::string mode(SQLite::Database& sqlite) {
   return sqlite.execAndGet("PRAGMA journal_mode").getString();
 }
 
-// A store may come from another person: what SQLite offers against a crafted file is switched on.
-// The schema itself is compared with ours before anything else is read (versions.hpp).
+// A store may come from another person, so that SQLite's protections against a crafted file are
+// switched on. The schema itself is compared with ours before anything else is read (versions.hpp).
 //
-// Not TRUSTED_SCHEMA = 0: SQLite 3.40 counts its own JSON functions, which our constraints and
-// views use, among the unsafe ones, and opens no store then. What it would forbid, functions with
-// side effects in a view of another's, is not there: no extension is loaded, no function of
-// ours registered, and the tokenizers of FTS3 stay closed.
+// TRUSTED_SCHEMA = 0 is not among them: SQLite 3.40 counts its own JSON functions, which our
+// constraints and views use, as unsafe and would open no store. It would forbid functions with side
+// effects in a foreign view, and there are none: no extension is loaded, no function of our own is
+// registered, and the tokenizers of FTS3 stay closed.
 void be_careful(SQLite::Database& sqlite) {
   sqlite3* handle = sqlite.getHandle();
   sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
@@ -73,8 +73,8 @@ void be_careful(SQLite::Database& sqlite) {
   sqlite.exec("PRAGMA cell_size_check = ON");
 }
 
-// The settings of a reader: no statement of a user's, of several in one text neither, may undo
-// them.
+// The settings of a reader. No statement of a user may undo them, even as one of several in one
+// text.
 int allow_to_a_reader(void*, int action, const char* pragma, const char* value, const char*,
                       const char*) {
   if (action == SQLITE_ATTACH || action == SQLITE_DETACH) return SQLITE_DENY;
@@ -111,7 +111,8 @@ std::string immutable_uri(const std::filesystem::path& file) {
   return uri + "?immutable=1";
 }
 
-// A store of an older version, read as if it had been brought forward: a temporary copy has.
+// A temporary copy of a store of an older version, brought forward, so that the store can be read
+// as if it were of the newest.
 std::unique_ptr<SQLite::Database> copy_brought_forward(SQLite::Database& old,
                                                        const std::filesystem::path& name) {
   auto copy = std::make_unique<SQLite::Database>("", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
@@ -123,9 +124,9 @@ std::unique_ptr<SQLite::Database> copy_brought_forward(SQLite::Database& old,
   return copy;
 }
 
-// The journal's mode after asking for the write-ahead log. Two processes that turn the same file
-// each hold the read lock the other must wait for: SQLite refuses one of them at once, whatever its
-// timeout, since waiting inside would never end. So the loser tries again from the outside.
+// Asks for the write-ahead log, and returns the mode of the journal after that. Two processes that
+// ask at once each hold the read lock that the other must wait for. SQLite refuses one of them at
+// once, whatever its timeout, since it would wait for ever; that one tries again here.
 std::string write_ahead(SQLite::Database& sqlite) {
   constexpr std::chrono::milliseconds pause{5};
   const auto until = std::chrono::steady_clock::now() + busy_timeout;
@@ -157,7 +158,7 @@ Database::Database(const std::filesystem::path& path, Access access) try : path_
   forget_trouble();
   file_ = resolved(path);
   if (access != Access::create) must_exist(path, file_);
-  must_be_journal_of(file_, path_);  // before SQLite's first look, which would put it back
+  must_be_journal_of(file_, path_);  // before SQLite sees the file and puts its journal back
   if (access == Access::read)
     open_to_read();
   else
@@ -208,7 +209,7 @@ void Database::open_to_read() {
   const auto known = scripts().size();
   must_not_be_newer(version, known, path_);
   must_have_our_schema(*sqlite_, version, path_);
-  // Another process may open or close the log between two of these looks: hence the second.
+  // Another process may open or close the log between two of these looks, hence the second one.
   const auto is_announced = [this] {
     return sqlite_->execAndGet("SELECT is_open FROM log").getInt() == 1;
   };
@@ -239,8 +240,8 @@ void Database::open_to_observe() {
     const bool asks_for_log = (error.getErrorCode() & 0xff) == SQLITE_CANTOPEN && !has_log(file_);
     if (!asks_for_log) throw;
   }
-  // Prepared for a log that is not there: no process writes it now. It is read without locks, and
-  // before() and after() look whether a process has begun to.
+  // The file is prepared for a log that is not there: no process writes it now. It is read without
+  // locks, and before() and after() look whether a process has begun to write it.
   forget_trouble();
   unlocked_ = std::make_unique<const Stamp>(file_);
   sqlite_ = connection(immutable_uri(file_), SQLite::OPEN_READONLY | SQLite::OPEN_URI,
@@ -275,17 +276,18 @@ void Database::open_to_write(Access access) {
   // The log is copied into the file by copy_log() alone.
   sqlite_->exec("PRAGMA wal_autocheckpoint = 0");
   // With a log, a commit reaches the operating system, not yet the disk. A killed process loses
-  // nothing; power loss undoes the newest commits, and what they held is computed again with the
-  // same bits, so that waiting for the disk at each commit would buy nothing. Without a log each
-  // commit waits for the disk: there are few, and a plan is not computed again. EXTRA: for the
-  // deletion of its journal too, which would otherwise come back after power loss and undo the
-  // commit, even one that a log was made after (open_log).
+  // nothing. Power loss undoes the newest commits, and what they held is computed again with the
+  // same bits, so that waiting for the disk at each commit would gain nothing. Without a log each
+  // commit waits for the disk: commits are few, and a plan is not computed again. EXTRA also waits
+  // for the deletion of the journal, which otherwise could come back after power loss and undo the
+  // commit, even if a log was made after it (open_log).
   sqlite_->exec(mode(*sqlite_) == "wal" ? "PRAGMA synchronous = NORMAL"
                                         : "PRAGMA synchronous = EXTRA");
   sqlite_->exec("PRAGMA foreign_keys = ON");
   // A replaced checkpoint need not be overwritten with zeros first.
   sqlite_->exec("PRAGMA secure_delete = OFF");
-  // The log grows to the largest commit, a checkpoint; give the space back afterwards. [bytes]
+  // The log grows to the size of the largest commit, a checkpoint, and gives the space back
+  // afterwards. [bytes]
   sqlite_->exec("PRAGMA journal_size_limit = 67108864");
   if (mode(*sqlite_) == "wal") remember_log();
 }
@@ -306,8 +308,8 @@ void Database::wait_for_locks_while(bool (*may_wait)()) {
   be_patient(sqlite_->getHandle(), may_wait);
 }
 
-// A log needs memory that all users share, which a network file system does not give to several
-// hosts. There a store stays a plain file, and campaign's lock lets one host use it at a time.
+// A log needs memory that all users share. A network file system cannot give it to several hosts:
+// there a store stays a plain file, and a lock of the program lets one host use it at a time.
 void Database::open_log() {
   if (is_on_network(file_)) {
     close_log();
@@ -322,7 +324,7 @@ void Database::open_log() {
     remember_log();
     sqlite_->exec(log_is_open);
   });
-  copy_log();  // so that the file says it before anything else is written
+  copy_log();  // so that the file says that there is a log before anything else is written
 }
 
 // SQLite opens the log when it first needs it, and keeps that file open from then on.
@@ -339,7 +341,7 @@ std::optional<std::string> Database::displaced() const {
   if (log_identity_ && identity_of(beside(file_, "-wal")) != log_identity_)
     return "has lost its log (" + beside(file_, "-wal").filename().string() +
            "), which was deleted or replaced";
-  // Nothing but copy_log() writes the file while there is a log, and it never makes it shorter.
+  // While there is a log, only copy_log() writes the file, and never makes it shorter.
   const auto header = header_of(*sqlite_);
   if (log_identity_ && header && (!header->expects_log || header->bytes < copied_bytes_))
     return "was written over by another program";
@@ -417,7 +419,8 @@ void Database::abandon_log(const std::filesystem::path& kept_as) {
   std::filesystem::remove(beside(file_, "-shm"), ignored);
 }
 
-// Has an owner begun to write what is being read without locks? Then it is read with them.
+// From the moment when another process begins to write it, a file that was read without locks is
+// read with them.
 void Database::before() {
   forget_trouble();
   if (unlocked_ && (has_log(file_) || *unlocked_ != Stamp(file_))) try {

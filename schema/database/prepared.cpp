@@ -20,7 +20,7 @@ SQLite::Statement PreparedStatements::take(const std::string& sql) {
 }
 
 void PreparedStatements::give_back(SQLite::Statement&& statement) noexcept try {
-  statement.tryReset();  // it lets go of the store; its error, if any, was told when it was used
+  statement.tryReset();  // lets go of the store; an error was reported when it occurred
   statement.clearBindings();
   std::string sql = statement.getQuery();
   kept_.try_emplace(std::move(sql), std::move(statement));

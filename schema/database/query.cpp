@@ -16,8 +16,9 @@ struct Finalize {
 };
 using Compiled = std::unique_ptr<sqlite3_stmt, Finalize>;
 
-// SQLite compiles the first statement of a text and leaves the rest alone: a user who typed two
-// must not believe that both were run. And not all that writes writes to the store (VACUUM INTO).
+// SQLite compiles the first statement of a text and leaves the rest alone, so that two statements
+// are refused: the user would believe that both were run. Nor does every statement that writes
+// write to the store (VACUUM INTO).
 void must_be_one_that_reads(sqlite3* handle, const std::string& sql) {
   const auto compile = [&](const char* text, const char** rest) {
     sqlite3_stmt* statement = nullptr;
@@ -35,7 +36,7 @@ void must_be_one_that_reads(sqlite3* handle, const std::string& sql) {
     throw QueryError("SQL: one statement at a time; not expected: " + std::string(rest));
 }
 
-// What a user typed is to blame, unless the store or the system is.
+// The text that the user typed is to blame, unless the store or the system is.
 [[noreturn]] void blame(Database& database, const SQLite::Exception& error) {
   switch (error.getErrorCode() & 0xff) {  // without SQLite's extension of the code
     case SQLITE_ERROR:

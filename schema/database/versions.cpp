@@ -51,7 +51,7 @@ void must_have_our_schema(SQLite::Database& sqlite, int version,
   const auto known = scripts();
   const auto seen = static_cast<std::size_t>(version);
   if (seen == known.size() && in_one_text(found) == newest_definition()) return;
-  // Of an older version, or with tables that a user has added, or not ours.
+  // The store is of an older version, has tables that a user has added, or is not ours.
   const Definition expected = definition_made_by(std::span(known).first(seen));
   const auto refuse = [&](const std::string& what) {
     throw Damage(name.string() + ": " + what +

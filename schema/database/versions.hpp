@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Which store this is: ours or not, of which version (sql/scripts.hpp), and brought forward.
+// Whether a file is a store of ours and of which version (sql/scripts.hpp), and how it is brought
+// forward.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>

@@ -2,8 +2,8 @@
 
 // The checksum of a checkpoint: FNV-1a with 64 bits (Fowler, Noll and Vo). Every step is
 // invertible, so that any change confined to one byte, and any bit flip, changes the sum; other
-// damage goes unseen with probability 2^-64. It is short, so that a user can write it
-// again to read the store without this program.
+// damage goes unseen with probability 2^-64. It is short, so that users can write it again for a
+// program of their own that reads the store.
 #pragma once
 
 #include <cstddef>

@@ -57,7 +57,7 @@ std::string list(const std::vector<Part>& parts, Word&& word) {
   return text;
 }
 
-// A column that was renamed goes on under its old name: its digests stay as they are.
+// A column that was renamed is digested under its old name, so that its digests stay as they are.
 std::string name_in_digests(const std::string& column) {
   return column == "tau_reached" ? "tau" : column;
 }

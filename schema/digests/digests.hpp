@@ -7,8 +7,8 @@
 // are digested again before the commit. Three things are left to the code that writes:
 //
 //   * before it changes a row of jobs, or a small table, it checks that the old one is as it was
-//     written: must_match(). Otherwise a flipped bit would be digested again, and be right from
-//     then on. What has been changed unchecked is a std::logic_error at the commit.
+//     written: must_match(). Otherwise a flipped bit would be digested again, and would count as
+//     right from then on. A row that was changed unchecked is a std::logic_error at the commit.
 //   * rows of samples, profiles, fields and snapshots are added to their digest: added();
 //   * loans of a job that change are digested again: changed().
 //
@@ -75,7 +75,7 @@ class Digests {
   // ---- reading ----
 
   bool has(std::int64_t job_id);
-  // What the store says is the digest of these rows; nothing if it has none.
+  // The digest of these rows as it is stored; nothing if they have none.
   std::optional<std::uint64_t> stored(std::int64_t job_id, Part part);
   // The digest of the rows as they are.
   std::uint64_t present(std::int64_t job_id, Part part);

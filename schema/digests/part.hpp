@@ -35,9 +35,9 @@ struct DigestsOfJob {
 struct Difference {
   Part part = Part::samples;
   std::string row;          // "tau = 3", "name = S, tau = 10, x = 0.5"; of a job's only row: empty
-  std::string column = {};  // none: one of the two lacks the row
+  std::string column = {};  // empty where one of the two lacks the row
   std::string here, there;  // both values, with all digits
-  // Of a logarithm or a transform, which differ that little between two libraries.
+  // Whether only the last digits of a logarithm or a transform differ, as between two libraries.
   bool is_in_last_digits = false;
 };
 

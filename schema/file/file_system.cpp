@@ -22,7 +22,7 @@ namespace haff::schema {
 
 namespace {
 
-// Remembered without memory from the heap: there may be none left.
+// It is remembered without memory from the heap, of which there may be none left.
 struct Note {
   bool exists = false;
   Operation operation = Operation::read;
@@ -182,8 +182,8 @@ int remove(sqlite3_vfs* vfs, const char* name, int sync_folder) {
   const int result = system->xDelete(system, name, sync_folder);
   if (result == SQLITE_OK || result == SQLITE_IOERR_DELETE_NOENT) return result;
   note(Operation::remove, name, errno);
-  // A log is deleted when the file has all of it, while no other process may look. One that stayed
-  // would be taken for another file's; an empty one is none.
+  // A log is deleted when the file has all of it, while no other process may look. A log that
+  // stayed would be taken for that of another file; an empty log counts as none.
   std::error_code none;
   if (std::string_view(name).ends_with("-wal")) std::filesystem::resize_file(name, 0, none);
   return result;

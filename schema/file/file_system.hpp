@@ -3,13 +3,13 @@
 // SQLite's way to the disk, with three things of our own in between ("VFS" in its documentation).
 //
 //  * What failed is remembered, so that a message can name the file, the operation and the system's
-//    reason: a full temporary folder is not a full disk, too many open files are no permission.
+//    reason: a full temporary folder is not a full disk, nor are too many open files.
 //  * A read that fails is an error of reading. SQLite's own layer takes EIO for a corrupt file
 //    system, and reports it as a damaged database: one bad read would condemn a sound store.
 //  * Only the store's own files are deleted. The rollback journal of a transaction over several
 //    databases names a further file, the super-journal, which SQLite deletes after the rollback. A
-//    store is always alone: a journal that names such a file was not written by this program, and
-//    the file is not the store's. It is neither opened nor deleted.
+//    store is always alone: this program writes no journal that names such a file, and the file is
+//    not the store's. It is neither opened nor deleted.
 //
 // All else is left to the VFS that was SQLite's default when the first store was opened.
 #pragma once

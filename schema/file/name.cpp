@@ -84,7 +84,7 @@ void must_have_one_name(const std::filesystem::path& name, const std::filesystem
 }
 
 void make(const std::filesystem::path& name, const std::filesystem::path& file) {
-  constexpr mode_t all_may_read_and_write = 0666;  // of which the umask takes its part
+  constexpr mode_t all_may_read_and_write = 0666;  // less what the umask forbids
   const int made =
       ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, all_may_read_and_write);
   if (made >= 0) {

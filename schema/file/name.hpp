@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The name of a store: always a path to one file, whatever else SQLite would read into it.
+// The name of a store is always a path to one file, whatever else SQLite would take it for.
 #pragma once
 
 #include <sys/types.h>

@@ -24,7 +24,8 @@ bool allows(void* may_wait) {
   return may_wait == nullptr || reinterpret_cast<bool (*)()>(may_wait)();
 }
 
-// SQLite asks, when it finds a lock taken, whether to try again; `tries` counts those of one wait.
+// When SQLite finds a lock taken, it asks whether to try again; `tries` counts the tries of one
+// wait.
 int wait_for_lock(void* may_wait, int tries) {
   thread_local Clock::time_point begin;
   if (tries == 0) begin = Clock::now();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// How long a connection waits for others, and that it ends when it is asked to.
+// How long a connection waits for others, and how it ends when it is asked to.
 #pragma once
 
 #include <sqlite3.h>
@@ -15,7 +15,7 @@ inline constexpr std::chrono::milliseconds busy_timeout{120'000};
 
 // Installs SQLite's busy and progress handlers. A lock is waited for as long as busy_timeout and,
 // if it is given, as `may_wait` allows, which is asked some times a second. Two seconds after
-// `may_wait` first said no, a statement that still works, however long it would take, ends as well.
+// `may_wait` first said no, a statement that still runs is ended as well.
 void be_patient(sqlite3* handle, bool (*may_wait)() = nullptr);
 
 }  // namespace haff::schema

@@ -149,7 +149,7 @@ bool bears_our_mark(const std::filesystem::path& store) {
   return file && mark == "Haff";
 }
 
-// As it was called: what started itself anew is "exe" in comm.
+// The name by which it was called: a program that started itself anew is "exe" in comm.
 std::string command_name(const std::string& process) {
   std::string name;
   std::getline(std::ifstream("/proc/" + process + "/cmdline"), name, '\0');
@@ -203,7 +203,7 @@ std::string lock_holders(const std::filesystem::path& store) {
     if (!files.contains(file) || process == std::to_string(getpid())) continue;
     (kind == "WRITE" ? writers : readers).insert(process);
   }
-  // A run's own workers read: they are in the way only where no process writes.
+  // The workers of a run only read most of the time: they are named where no process writes.
   const auto& processes = writers.empty() ? readers : writers;
   std::string text;
   for (const std::string& process : processes)

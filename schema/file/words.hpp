@@ -10,8 +10,8 @@
 
 namespace haff::schema {
 
-// Throws the type of error.hpp that this error is one of. `store` is the name as the user gave it,
-// the trouble that file_system.hpp remembers is the reason.
+// Throws this error as the type of error.hpp that it belongs to. `store` is the name that the user
+// gave; the trouble that file_system.hpp remembers is the reason.
 [[noreturn]] void raise(const std::filesystem::path& store, const SQLite::Exception& error);
 
 // "; campaign.db-shm belongs to anna (mode 0644), ..." for the first of the store's files, or its

@@ -105,7 +105,7 @@ class Scout : public nlohmann::json_sax<Json> {
   std::vector<Level> levels_;
 };
 
-// Leaves out what is said to other programs and to people, and writes each number in one way.
+// Leaves out what is meant for other programs and for people, and writes each number in one way.
 void tidy(Json& value) {
   if (value.is_number_float()) value = shortest_decimal(value.get<double>());
   if (value.is_array())
@@ -133,7 +133,7 @@ std::string shown(const Json& value) {
 }
 
 double shortest_decimal(double value) {
-  // Whole numbers keep their digits: those of a seed, say.
+  // Whole numbers, such as seeds, keep their digits.
   if (!std::isfinite(value) || value == std::trunc(value)) return value;
   std::array<char, 32> text;
   constexpr int most_digits = 17;

@@ -16,7 +16,7 @@ namespace haff::schema {
 
 namespace {
 
-// Two that do not go together, and why.
+// Two effects that do not go together, and why.
 struct Exclusion {
   std::string_view one;
   std::string_view other;

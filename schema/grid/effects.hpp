@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The effects of a gas beyond constant restitution: what a grid asks for and a job has, parsed
-// once. And what a JSON schema cannot say of them: which do not go together, which matter at e = 1,
+// The effects of a gas beyond constant restitution, which a grid asks for and a job has, parsed
+// once; and what a JSON schema cannot say of them: which do not go together, which matter at e = 1,
 // and which leave Haff's law as it is.
 #pragma once
 
@@ -36,8 +36,8 @@ class Effects {
   bool contains(std::string_view effect) const { return by_name_.contains(effect); }
   const ByName& by_name() const { return by_name_; }
 
-  // The parameter of an effect, or nothing where the gas has no such effect, or it no such
-  // parameter.
+  // The parameter of an effect, or nothing where the gas has no such effect or the effect has no
+  // such parameter.
   std::optional<double> parameter(std::string_view effect, const std::string& name) const;
 
   // The name of the law of restitution; "constant" where none is asked for. Its parameters are
@@ -63,11 +63,11 @@ std::optional<std::string> nonsense(const Effects& effects);
 // One of them with which a gas of constant e does not cool as Haff's law says, or nothing.
 std::optional<std::string> beyond_haffs_law(const Effects& effects);
 
-// Whether energy is lost where e = 1, all the same: by rough spheres, unless their surfaces slip
-// freely or grip perfectly.
+// Whether collisions lose energy even where e = 1: those of rough spheres do, unless the surfaces
+// slip freely or grip perfectly.
 bool lose_energy_at_e_1(const Effects& effects);
 
-// Of a job's effects those that its equilibration has, too: they change what equilibrium is.
+// Those of a job's effects that its equilibration has too, since they change the equilibrium.
 Effects effects_of_equilibration(const Effects& effects);
 
 }  // namespace haff::schema

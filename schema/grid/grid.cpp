@@ -97,7 +97,7 @@ AskedStart asked_start(const Placed& placed, const std::string& file) {
   }
   if (value.is_object() && value.contains("file")) {
     asked.start.kind = Start::Kind::file;
-    // Beside the grid, as a grid and what it names are moved together.
+    // A relative path begins where the grid lies: both are moved together.
     asked.file = std::filesystem::path(file).parent_path() / value["file"].get<std::string>();
     asked.place = file + ": " + (placed.where / "file").to_string();
   }
@@ -139,7 +139,8 @@ SubGrid sub_grid(const Source& source, std::vector<double> tau_max, const std::s
                .snapshots_at = schedule(source, "snapshots_at"),
                .effects = effects(source["effects"]),
                .targets = targets(source)};
-  // Kept where they decide what is measured: elsewhere two grids that differ in them are the same.
+  // They are kept where they decide what is measured. Elsewhere, two grids that differ in nothing
+  // else are the same.
   const auto& names = grid.observables;
   if (std::any_of(names.begin(), names.end(), is_profile))
     grid.profiles_every = source["profiles_every"].value.get<double>();

@@ -68,15 +68,15 @@ struct Preparation {
   bool on_lattice = false;  // whether it must be a lattice: the start is a crystal
 };
 
-// Why a gas cannot be prepared, e.g. "particles ... ; expected ...", or nothing if it can. Only a
-// user of the engine knows.
+// Why a gas cannot be prepared, e.g. "particles ... ; expected ...", or nothing if it can. Only the
+// engine knows.
 using Refusal = std::function<std::optional<std::string>(const Preparation&)>;
 
 // Reads and checks a grid file. Throws GridError.
 Grid read_grid(const std::filesystem::path& path, const Memory& memory,
                const Refusal& cannot_start = {});
 
-// The same for a text; `file` is what messages call it.
+// The same for a text, which messages call `file`.
 Grid parse_grid(std::string_view text, const std::string& file, const Memory& memory,
                 const Refusal& cannot_start = {});
 

@@ -18,9 +18,9 @@ namespace {
 
 constexpr int digits = 4;  // of a logarithmic moment
 
-// Moment k: 10^(k/per_decade). The power is of a number from 1 to 10, and no such power lies within
-// 1e-8 of the middle between two numbers of four digits: the last digits of std::pow decide
-// nothing.
+// Moment k, 10^(k/per_decade). Its mantissa, from 1 to 10, never lies within 1e-8 of the middle
+// between two numbers of four digits, so that the last digits of std::pow do not decide how it is
+// rounded.
 double logarithmic(int per_decade, int k) {
   const int decade = k >= 0 ? k / per_decade : -((per_decade - 1 - k) / per_decade);
   const double power = std::pow(10.0, static_cast<double>(k - decade * per_decade) / per_decade);
@@ -44,7 +44,7 @@ std::string axis_text(const Moments& moments) {
   return "[" + list + "]";
 }
 
-// Finite and not negative, so that a run meets them one after the other.
+// The moments are finite and not negative, so that a run meets them one after the other.
 double moment_in(const Json& value) {
   const auto moment = value.get<double>();
   if (!(moment >= 0 && std::isfinite(moment)))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// When a job does something at moments of its own, beside what it does at intervals: the keys
-// sample_at and snapshots_at of a grid.
+// Moments at which a job does something, beside what it does at intervals: the keys sample_at and
+// snapshots_at of a grid.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace haff::schema {
 // Moments on one axis, tau or time: those that are listed, or so many a decade.
 //
 // The logarithmic ones are 10^(k/per_decade) for whole k, with four digits: 1, 1.122, 1.259 ...
-// Rounded to so few, they are the same doubles on every machine, whatever its C library makes of a
-// power, and a person can ask for one by name.
+// Rounded to so few digits, they are the same doubles on every machine, whatever its C library
+// makes of a power, and a user can type them.
 struct Moments {
   std::vector<double> listed = {};  // increasing
   int per_decade = 0;               // 0: none
@@ -21,7 +21,7 @@ struct Moments {
 
   bool empty() const { return listed.empty() && per_decade == 0; }
 
-  // The first moment after this one; infinity if there is none. Of -1 the first.
+  // The first moment after this one; infinity if there is none. After -1 comes the first of all.
   double next(double after) const;
 
   bool operator==(const Moments&) const = default;

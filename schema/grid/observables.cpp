@@ -9,7 +9,8 @@
 namespace haff::schema {
 namespace {
 
-// Boxes: analysis/observables refuse those in which they find no two shells, or a particle twice.
+// The measurements refuse boxes in which they would find fewer than two shells, or a particle
+// twice.
 constexpr std::array all_observables{
     Observable{"temperature"},
     Observable{"laguerre"},

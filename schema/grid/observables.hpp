@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The observables of a grid, and the curves that they leave in the table profiles, once for all. A
-// new observable is a line in each of the two tables of observables.cpp and its name in
+// The only list of the observables of a grid, and of the curves that they leave in the table
+// profiles. A new observable is a line in each of the two tables of observables.cpp and its name in
 // grid.schema.json; CONTRIBUTING.md says where it is measured.
 #pragma once
 
@@ -22,17 +22,17 @@ struct Observable {
 };
 std::span<const Observable> observables();
 
-// Of "msd@20" that of msd. Null if there is none of this name.
+// The observable of this name, msd for "msd@20"; null if there is none.
 const Observable* find_observable(std::string_view name);
 
-// 20 of "msd@20", the waiting time; 0 of "msd"; nothing of an observable without one.
+// The waiting time: 20 for "msd@20", 0 for "msd", nothing for an observable without one.
 std::optional<double> waiting_time(std::string_view observable);
 
 // A curve in the table profiles.
 struct Curve {
   std::string_view name;
   std::string_view observable;
-  std::string_view variable;  // as axes call it
+  std::string_view variable;  // the name of x on an axis
   std::string_view meaning;
 };
 std::span<const Curve> curves();

@@ -42,7 +42,7 @@ const Json& grid_properties() {
   return schema()["definitions"]["grid"]["properties"];
 }
 
-// The rule itself, where it is only referred to.
+// The rule itself where this one only refers to it.
 const Json& resolved(const Json& rule) {
   if (!rule.contains("$ref")) return rule;
   return schema().at(Pointer(rule["$ref"].get<std::string>().substr(1)));
@@ -116,8 +116,8 @@ std::vector<std::string> enumerated(const Json& rule) {
   return {};
 }
 
-// What a rule says of an object: itself, the alternative that is one, and what follows from the
-// object's own words ("if" a member has this value, "then").
+// All rules that hold for an object: the rule itself, its alternative for objects, and what follows
+// from the object's own values ("if" a member has this value, "then").
 std::vector<const Json*> rules_of_object(const Json& rule, const Json& value) {
   const Json& here = resolved(rule);
   if (here.contains("anyOf"))
@@ -132,7 +132,7 @@ std::vector<const Json*> rules_of_object(const Json& rule, const Json& value) {
   return rules;
 }
 
-// A key too much or one too few.
+// A key is unknown, or one is missing.
 std::optional<GridError> wrong_keys(const Json& value, const Json& rule, const std::string& file,
                                     const Pointer& where) {
   if (!value.is_object() || where.empty()) return std::nullopt;
@@ -164,7 +164,7 @@ GridError explanation(const Json& document, const std::string& file, const Point
         file, where / *key,
         retired(*key).value_or("unknown key; " + suggestion(*key, keys((*rule)["properties"]))));
 
-  // A law of restitution among the effects may take the place of e (Examiner in grid.cpp).
+  // A law of restitution among the effects may take the place of e (examination/combinations.hpp).
   if (value.is_object() && where.empty() && !value.contains("e") && !value.contains("effects"))
     return fault(file, where, "has no \"e\"; expected " + description("e"));
   if (value.is_object() && where.empty())
@@ -174,7 +174,7 @@ GridError explanation(const Json& document, const std::string& file, const Point
 
   if (const auto wrong = wrong_keys(value, *rule, file, where)) return *wrong;
 
-  // Of a single word its description says more.
+  // Where only one word is possible, the description says more.
   const auto words = enumerated(*rule);
   if (value.is_string() && words.size() > 1)
     return fault(file, where,

@@ -15,7 +15,8 @@ namespace haff::schema {
 // one, the key that is missing, or the value and what the schema describes in its place.
 void check_rules(const Json& document, const std::string& file);
 
-// Keys that every grid must have, here or among the defaults; e is another matter.
+// Keys that every grid must have, here or among the defaults, except e, which depends on the
+// effects.
 std::vector<std::string> required_keys();
 
 // What the schema says about the key of a grid, e.g. "a number of particles, ...".

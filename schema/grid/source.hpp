@@ -26,7 +26,7 @@ std::vector<Placed> items(const Placed& effect, const std::string& key);
 // The effect of this name wherever it stands among the effects of a grid, without a list around it.
 std::vector<Placed> asked(const Placed& effects, const std::string& effect);
 
-// Whatever holds a list, at any depth, becomes several values without one: the product of all
+// A value that holds lists, at any depth, becomes several values without lists: the product of all
 // lists. Numbers are written in one way, so that equal effects have equal texts.
 std::vector<Json> expanded(const Json& value);
 

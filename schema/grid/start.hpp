@@ -30,8 +30,8 @@ struct Start {
   bool is_uniform() const { return kind == Kind::uniform; }
   // Whether an elastic gas is equilibrated first.
   bool is_equilibrated() const { return kind != Kind::crystal && kind != Kind::file; }
-  // Whether it flows, or is hotter here than there: the energy then falls by more than collisions
-  // of a uniform gas take.
+  // Whether the gas flows, or is hotter in one place than in another: its energy then falls by more
+  // than collisions of a uniform gas take.
   bool is_driven_apart() const {
     return kind == Kind::shear_wave || kind == Kind::two_temperatures;
   }
@@ -49,7 +49,7 @@ Start start_in(const std::string& text);
 // As a grid asks for it.
 struct AskedStart {
   Start start;                      // of a file without its digest
-  std::filesystem::path file = {};  // where the grid lies or, if that says so, elsewhere
+  std::filesystem::path file = {};  // absolute, or relative to the folder of the grid
   std::string place = {};  // of the name of the file, for messages: "grid.json: /start/file"
 };
 

@@ -12,7 +12,7 @@ namespace haff::schema {
 // (Levenshtein's distance).
 std::size_t distance(const std::string& one, const std::string& other);
 
-// What to say of a word that is not known: the word it was meant to be, if less than half of it is
+// What to say of an unknown word: the word that was meant, if less than half of it is
 // wrong ("did you mean "a2"?"), else all of them ("expected one of "a2", "a3""). There must be one.
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 

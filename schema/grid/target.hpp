@@ -12,9 +12,9 @@
 namespace haff::schema {
 
 // The interval about the mean rests on the scatter of the pilot runs
-// (analysis/statistics/accuracy.hpp), which fewer know too badly: 5 make it 2.8 standard errors to
-// either side instead of 2, 3 would 4.3, and their forecast of how many realizations there will be
-// is right within a factor of about 2.
+// (analysis/statistics/accuracy.hpp), which fewer runs do not tell well enough: with 5 of them it
+// is 2.8 standard errors to either side instead of 2, with 3 it would be 4.3. Their forecast of the
+// number of realizations is right within a factor of about 2.
 inline constexpr std::size_t fewest_pilots = 5;
 
 // What a target was expected to take when its pilot runs were done.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// One column of a row, checked. A store is a file that may come from anywhere: what stands in it
-// is input, and is checked here once, so that no text of it reaches a terminal or a figure as a
-// command, and no number is believed that the program itself would not have written. Private to
+// One column of a row, checked. A store is a file that may come from anywhere. Its values are input
+// and are checked here once: no text of it reaches a terminal or a figure as a command, and the
+// program believes no number that it would not have written itself. Private to
 // schema/.
 #pragma once
 
@@ -33,8 +33,8 @@ inline constexpr std::int64_t largest_whole = std::int64_t{1} << 53;
 // UTF-8 without control characters: what can be printed as it is, on one line.
 bool is_printable(std::string_view text);
 
-// The same with a blank for each byte that is not printable: what others say (an exception's
-// message), on its way into the store.
+// The same with a blank for each byte that is not printable, for texts of other libraries (the
+// message of an exception) on their way into the store.
 std::string printable(std::string text);
 
 // Each throws BadValue, naming the column, unless the value is of this type and in this range.

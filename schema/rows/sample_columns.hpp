@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The columns of the table samples, once for all: rows are read, written, compared, averaged and
-// summed up by this list. A new column is a line here, a member of Sample, and ALTER TABLE samples
+// The only list of the columns of the table samples: rows are read, written, compared, averaged and
+// summed up by it. A new column is a line here, a member of Sample, and ALTER TABLE samples
 // in a script. Units and meaning: 001-store.sql and the scripts after it. Private to schema/.
 #pragma once
 

@@ -14,7 +14,7 @@ namespace haff::schema {
 namespace {
 
 // A gas and how it is sampled: jobs that agree in these and in the seed are one realization,
-// whatever they observe.
+// whichever observables they have.
 constexpr const char* gas =
     "e, n, particles, d, start, equilibrate, sample_every, sample_at, effects";
 
@@ -37,7 +37,8 @@ std::string list(const std::vector<std::string>& columns, std::string_view form)
 // Four steps. `once`: a realization that was run again to observe more is one, and what both runs
 // have is the same number. `means`, then `errors`: the standard error of the mean is
 // sqrt(sum (x - mean)^2 / (R - 1) / R), NULL for one realization; deviations are taken from the
-// mean itself, since <x^2> - <x>^2 loses every digit of a late temperature. Last, one row a mean.
+// mean itself, since <x^2> - <x>^2 loses every digit of a late temperature. Finally there is one
+// row for each mean.
 //
 // Sums run over windows ordered by seed, so that an average does not depend, even in the last bit,
 // on the order in which jobs were planned or finished. Each step keeps the columns of the gas and
@@ -88,8 +89,8 @@ ORDER BY d, n, particles, e, start, equilibrate, sample_every, sample_at, effect
                     ",\n       mean_{0} AS {0}, sqrt(variance_{0} / (count_{0} - 1)) AS {0}_se")));
 }
 
-// Each sample beside what its job is. The table jobs stands first: a condition on a gas is looked
-// up there, and then, with one on tau, in the key of samples.
+// Each sample beside the parameters of its job. The table jobs comes first, so that a condition on
+// a gas is looked up there, and then one on tau in the key of samples.
 std::string series_view() {
   std::string columns;
   for (const SampleColumn& column : sample_columns) columns += fmt::format(", {}", column.name);
@@ -115,8 +116,8 @@ Source mean_of_samples(const char* view, MeanView which) {
 std::string mean_views_script() {
   Source temperatures = mean_of_samples("mean_temperatures", MeanView::temperatures);
   temperatures.where = " AND (rotational_temperature IS NOT NULL OR temperature_1 IS NOT NULL)";
-  // tau_c is averaged over those that reached it: where they are fewer than the realizations,
-  // tau_max was too small and the mean is biased low.
+  // tau_c is averaged over the realizations that reached it. Where some did not, tau_max was too
+  // small and the mean is biased low.
   const Source tau_c{.view = "mean_tau_c",
                      .table = "results",
                      .place = {},

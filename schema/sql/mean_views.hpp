@@ -9,7 +9,7 @@
 
 namespace haff::schema {
 
-// Makes them, in place of those of an older program.
+// SQL that makes them in place of those of an older program.
 std::string mean_views_script();
 
 }  // namespace haff::schema

@@ -9,9 +9,9 @@
 
 namespace haff::schema {
 
-// All scripts, in their order. Whatever brings a store to the newest version ends with the last
-// one, and with it the views that average are made anew. A change of these views therefore takes a
-// new script, or stores that have them as they were count as changed by another program.
+// All scripts, in their order. The last one, with which every store comes to the newest version,
+// also makes the views that average anew. A change of these views therefore needs a new script:
+// otherwise stores with the earlier views count as changed by another program.
 std::vector<std::string_view> scripts();
 
 // The version of a store that has seen this script, and none after it.

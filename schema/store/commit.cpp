@@ -166,8 +166,8 @@ void note_physics(Database& database, const Lease& lease, int physics_version) {
   statement.exec();
 }
 
-// A commit, with its checksums already computed, so that no process waits for the write lock
-// meanwhile.
+// A commit with its checksums, which are computed before the write lock is taken, so that no
+// process waits for them.
 class Entry {
  public:
   Entry(const Lease& lease, const Commit& commit) : lease_(lease), commit_(commit) {
@@ -206,8 +206,8 @@ void replace(Database& database, const Lease& lease, const Results& results) {
   statement.exec();
 }
 
-// A job that has come to its end from its start, without a new state on the way: the damaged one
-// has served its time.
+// A job that began at its start, because its state was damaged, and came to its end without a new
+// state on the way: the damaged one is needed no more.
 void drop_unused_state(Database& database, const Lease& lease) {
   for (const char* sql : {"DELETE FROM checkpoint_chunks WHERE job_id IN "
                           "(SELECT job_id FROM jobs WHERE job_id = ? AND starts_over)",

@@ -12,7 +12,7 @@ namespace haff::schema {
 
 namespace {
 
-// As integrity_check words it.
+// In the words of integrity_check.
 bool is_of_an_index(std::string_view fault) {
   return fault.starts_with("wrong # of entries in index ") ||
          (fault.starts_with("row ") &&
@@ -60,7 +60,7 @@ Faults faults_of(Database& database) {
           (is_of_an_index(line) ? faults.derived : faults.file).push_back(line);
       });
     } catch (const Damage& damage) {
-      faults.file.emplace_back(damage.what());  // so bad that the check itself could not go on
+      faults.file.emplace_back(damage.what());  // the check itself could not go on
     }
   if (faults.file.empty() && database.guarded([&] { return statistics(database.sqlite()); }) !=
                                  statistics_of_a_new_store())

@@ -17,7 +17,8 @@ struct Faults {
   bool empty() const { return file.empty() && derived.empty(); }
 };
 
-// SQLite's integrity check, the foreign keys, and what SQLite is told of the sizes of tables.
+// Checks the integrity of the file, the foreign keys, and what SQLite is told of the sizes of
+// tables.
 Faults faults_of(Database& database);
 
 // Makes indexes and statistics anew. Within a transaction.

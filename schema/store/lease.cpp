@@ -8,7 +8,7 @@ namespace haff::schema {
 
 namespace {
 
-// Nothing works on this job any more. What its row said may be seen, and stays known as wrong.
+// No process works on this job any more. Its row can still be read, and stays known as wrong.
 void condemn(Database& database, std::int64_t job_id, const std::string& why) {
   Prepared statement(database, R"(
     UPDATE jobs SET status = 'failed', error = ?, owner_boot_id = NULL, owner_pid = NULL,

@@ -18,7 +18,7 @@ namespace haff::schema {
 
 namespace {
 
-// Of all tables this is the one that most is read from: say which row is wrong.
+// Most of what is read comes from this table: the message says which row is wrong.
 JobRow row_of_job(const SQLite::Statement& row) {
   try {
     return job_row(row);

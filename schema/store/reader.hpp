@@ -96,8 +96,8 @@ class Reader {
 
   // ---- what jobs have measured ----
   //
-  // Each throws Damage, naming the job, if the rows are not as they were written: whatever averages
-  // or goes on from them, refuses them.
+  // Each throws Damage, naming the job, if the rows are not as they were written: they are neither
+  // averaged nor gone on from.
 
   std::vector<Sample> samples(std::int64_t job_id) const;  // by tau
   // The job's last sample with sample.tau <= tau: what a resumed job goes on from.
@@ -145,9 +145,8 @@ class Reader {
   // One SQL statement that reads. On a Store too, SQLite is told to refuse writes meanwhile.
   Query query(const std::string& sql) const;
 
-  // Copies the store to a file that is not there yet, as it is at one moment, whatever else uses
-  // it. What is copied is checked; jobs that are being run are pending in the copy. Returns its
-  // size.
+  // Copies the store, as it is at one moment, to a file that is not there yet, even while others
+  // use it. The copy is checked; jobs that are being run are pending in it. Returns its size.
   std::uintmax_t back_up(const std::filesystem::path& to) const;
 
   // The store's newest rows may be missing: it was left, or copied, without the log beside it.
@@ -157,7 +156,7 @@ class Reader {
   Faults faults() const;
 
  protected:
-  friend class Store;  // which reads from another store when it takes over a job
+  friend class Store;  // reads from another store when it takes over a job
   explicit Reader(std::unique_ptr<Database> database);
   Database& database() const { return *database_; }
 

@@ -109,8 +109,8 @@ double kept_tau(SQLite::Database& sqlite, const JobRow& row) {
   return statement.executeStep() ? statement.getColumn(0).getDouble() : 0;
 }
 
-// What our job becomes when it takes over theirs. A job that a plan has made longer meanwhile is
-// not done, and one that is still unfinished there stays as it is here.
+// The status of our job after it has taken over theirs. A job that a plan has made longer meanwhile
+// is not done, and one that is unfinished in the other store keeps its status.
 Status status_after(const JobRow& ours, const JobRow& theirs) {
   if (!has_ended(theirs.status)) return ours.status;
   if (theirs.status == Status::failed)

@@ -3,9 +3,9 @@
 // Shards: stores that hold some jobs of a campaign, to be run somewhere else.
 //
 // A shard is a store like any other. It carries the campaign_id of the store that lent it its jobs,
-// and a name. What two stores know of one job never contradicts: rows that both have are equal, bit
-// for bit, and the store that is behind takes over what the other has beyond it. That is all there
-// is to merging, so it can be done in any order and as often as one likes.
+// and a name. Two stores never contradict each other about a job: rows that both have are equal,
+// bit for bit, and the store that is behind takes over what the other has beyond it. Merging does
+// no more than this, so that shards can be merged in any order and any number of times.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ struct Loan {
   std::vector<std::int64_t> jobs;  // job_id; those that are done go along and are not lent
 };
 
-// What came of taking over a job from another store.
+// The result of taking over a job from another store.
 struct Arrival {
   std::int64_t rows = 0;  // samples, points of profiles and fields that were new
   bool advanced = false;  // the other store was ahead: its state is now ours

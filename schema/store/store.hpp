@@ -11,7 +11,7 @@
 //     store.finish(claim->lease, last_commit, results, claim->tau_max);
 //   }
 //
-// What is promised (schema/README.md says by which means). Every function that writes is
+// What is promised (schema/README.md says by which means): every function that writes is
 // one transaction: it happens entirely or not at all, whenever the process is killed. Many
 // processes on one machine may read and write at the same time; between open_log() and close_log()
 // readers never wait, and writers wait for each other up to busy_timeout. At power loss the newest
@@ -70,8 +70,8 @@ class Store : public Reader {
   // (anywhere) or in the store: std::logic_error otherwise. A plan names a job once.
   std::vector<Outcome> add(const std::vector<Planned>& plan);
 
-  // Add targets. Of one that is there only the standard error changes: its pilot runs stay, so that
-  // what is already known of the results does not choose them.
+  // Add targets. A target that is there changes its standard error only. Its pilot runs stay, so
+  // that they are not chosen by results that are already known.
   void add(const std::vector<Target>& targets);
 
   // Keep what a target of the store is expected to take. What was expected first stays.
@@ -87,7 +87,7 @@ class Store : public Reader {
   std::optional<Claim> claim(const Owner& owner, const std::string& code_version,
                              const std::optional<Fit>& fit = {});
 
-  // Still alive, and so far. Throws LeaseLost like everything below.
+  // Says that the worker is alive, and how far it is. Throws LeaseLost, as all below do.
   void progress(const Lease& lease, const Progress& progress);
 
   // Samples, profiles and fields that are there already are kept as they are; if a column of a

@@ -35,7 +35,7 @@ enum class Outcome { added, extended, unchanged };
 
 // ---- working ----------------------------------------------------------------------------------
 
-// A process, told apart from every other that ever had its number.
+// A process, distinguished from all others that ever had its number.
 struct Owner {
   std::string host;
   std::string boot_id;  // changes when the host restarts
@@ -51,7 +51,7 @@ struct Lease {
   std::int64_t token = 0;
 };
 
-// Whether something of a job can be stored in the time that is left: whether it is expected to get
+// The condition that a job can store something in the time that is left: that it is expected to get
 // so much further, or to its end, within these seconds.
 struct Fit {
   double seconds = 0;  // of CPU time
@@ -69,8 +69,8 @@ struct Claim {
   bool starts_over = false;                      // its state is damaged: begin at the start
 };
 
-// What a worker has to say at once, written in one transaction: what was measured before the
-// checkpoint and the checkpoint, so that the store never knows one without the other.
+// What a worker writes in one transaction: what was measured before the checkpoint, and the
+// checkpoint itself, so that the store never has one without the other.
 struct Commit {
   std::vector<Sample> samples = {};
   std::vector<Profile> profiles = {};

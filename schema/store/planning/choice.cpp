@@ -70,8 +70,8 @@ std::string translated(const Reader& store, const std::string& option, const std
   });
 }
 
-// SQLite's words, with what else could have been meant by a column that there is not, or an
-// example.
+// The words of SQLite, with the column that could have been meant in place of an unknown one, or
+// with an example.
 std::string explained(const Reader& store, std::string reason, const char* example) {
   constexpr std::string_view sql = "SQL: ", unknown = "no such column: ";
   if (reason.starts_with(sql)) reason.erase(0, sql.size());
@@ -82,7 +82,7 @@ std::string explained(const Reader& store, std::string reason, const char* examp
   return reason + "; " + suggestion(reason.substr(unknown.size()), known);
 }
 
-// What an option takes, as a complaint names it.
+// What an option takes, in the words of a complaint.
 struct Expected {
   const char* option;
   const char* form;
@@ -111,7 +111,7 @@ std::string shown(const Value& value) {
   return "a BLOB";
 }
 
-// A line of its own: a comment at the end of what was typed ends there.
+// The text gets a line of its own, so that a comment at its end ends there.
 std::string in_brackets(const std::string& sql) {
   return "(" + sql + "\n)";
 }

@@ -6,9 +6,9 @@
 // Beside the columns of jobs it may say N for the number of particles (SQLite ignores case, so that
 // N alone would be the density n) and roughness.beta for a parameter of an effect.
 //
-// A condition chooses cooling jobs, and with them what they start from: an equilibration, which has
-// neither an e nor effects of its own to be chosen by, is run when a chosen job waits for it. Only
-// a condition that names kind or job_id chooses among equilibrations, too.
+// A condition chooses cooling jobs, and with them the equilibrations that they start from. These
+// have neither an e nor effects to be chosen by, and are run when a chosen job waits for them. Only
+// a condition that names kind or job_id also chooses among equilibrations.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +46,8 @@ class Choice {
 // The jobs that a condition chooses, without what they start from.
 std::set<std::int64_t> chosen_jobs(const Reader& store, const Choice& choice);
 
-// A store of which only the chosen jobs are run. What hides a function of Store does the same with
-// the chosen jobs and the equilibrations that they wait for.
+// A store of which only the chosen jobs are run. A function that hides one of Store does the same
+// for the chosen jobs and the equilibrations that they wait for.
 class Selection : public Store {
  public:
   Selection(Store store, Choice choice) : Store(std::move(store)), choice_(std::move(choice)) {}

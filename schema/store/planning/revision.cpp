@@ -151,8 +151,8 @@ void judge_equilibration(const Inventory& inventory, const JobRow& row, const Te
   if (is_chosen || found.fate == Fate::removed) fates.emplace(row.job_id, std::move(found));
 }
 
-// What becomes of these jobs, and of the equilibrations that they alone start from, but for those
-// that are needed otherwise.
+// What becomes of these jobs, and of the equilibrations that only they start from, unless a job is
+// needed otherwise.
 std::vector<Dismissal> dismissals(const Inventory& inventory, const std::set<std::int64_t>& chosen,
                                   const Terms& terms, const std::set<std::int64_t>& needed = {}) {
   Fates fates;
@@ -181,7 +181,7 @@ bool is_same(const Target& one, const Target& other) {
          one.tau_from == other.tau_from && one.tau_to == other.tau_to;
 }
 
-// A job that the plan asks less of.
+// A job that the plan now asks less of.
 std::optional<Dismissal> shortened(const Inventory& inventory, const JobRow& row,
                                    const Planned& planned) {
   const bool may_be = row.status != Status::done && row.status != Status::collapsed;
@@ -224,7 +224,7 @@ Revision revision(const Reader& store, const std::vector<Planned>& plan,
   std::set<std::int64_t> others;
   for (const auto& [id, row] : inventory.jobs())
     if (!wanted.contains(id) && !planned_by_target.contains(row.series)) others.insert(id);
-  // Equilibrations of what stays are not spoken of.
+  // Equilibrations of jobs that stay are not mentioned.
   std::set<std::int64_t> needed = wanted;
   for (const auto& [id, row] : inventory.jobs())
     if (row.job.kind == Kind::equilibration && !inventory.users(id).empty()) others.erase(id);
@@ -249,7 +249,7 @@ void remove(Database& database, std::int64_t job_id) {
   database.digests().removed(job_id);
 }
 
-// Its expected cost is that of the way to tau_max.
+// Its expected cost is that of a run to tau_max.
 void end_at(Database& database, const Dismissal& job) {
   database.digests().must_match(job.row.job_id, Part::jobs);
   SQLite::Statement statement(database.sqlite(), R"(
@@ -322,8 +322,8 @@ Revision revision_of_replace(const Reader& store, const std::vector<Planned>& pl
 }
 
 Revision Revised::cancel(const Choice& choice, bool with_rows) {
-  // As it is in the transaction that writes: a worker may have claimed a job since it was looked
-  // at.
+  // The jobs are looked at again in the transaction that writes: a worker may have claimed one
+  // meanwhile.
   return database().transaction([&] {
     Revision found = revision_of_cancel(*this, choice, with_rows);
     carry_out(database(), found);

@@ -3,8 +3,8 @@
 // A plan that is revised: jobs that are no longer wanted go, others end earlier, a grid replaces
 // what was planned before.
 //
-// What has been computed is never dropped unless that is asked for. Each change can be looked at
-// first: revision_of_… say what a function of Revised would do, and change nothing.
+// Computed rows are never dropped unless that is asked for. Each change can be looked at first:
+// revision_of_… say what a function of Revised would do, and change nothing.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t most_particles = std::numeric_limits<std::uint32_t>::max();
 
-// What `read` makes of a text, which must be the text that `write` makes of that.
+// The value that `read` makes of a text; `write` must make the same text of it.
 template <class Read, class Write>
 auto canonical(const SQLite::Statement& row, const char* column, Read&& read, Write&& write) {
   const std::string stored = text(row, column);
@@ -60,7 +60,7 @@ auto named(const SQLite::Statement& row, const char* column, Named&& known) {
   }
 }
 
-// As many samples or collisions as no run ever makes: beyond, whole numbers would overflow.
+// More samples or collisions than any run makes; with still more, whole numbers would overflow.
 void must_be_countable(const Job& job, double tau_max) {
   constexpr auto most = static_cast<double>(largest_whole);
   if (tau_max / job.sample_every > most || tau_max * job.particles > most)

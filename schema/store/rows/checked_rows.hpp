@@ -44,7 +44,7 @@ inline constexpr const char* from_claimable_jobs =
     "WHERE jobs.status = 'pending' "
     "AND (jobs.kind = 'equilibration' OR equilibration.status = 'done') ";
 
-// What adding this job to the store as it is would do.
+// What would happen to this job if it were added to the store as it is.
 Outcome outcome(SQLite::Database& sqlite, const Planned& planned);
 
 }  // namespace haff::schema

@@ -18,7 +18,7 @@ class Database;
 // `insert` has places for the position and the bytes of a chunk from `first` on.
 void insert_chunks(SQLite::Statement& insert, int first, std::span<const std::byte> state);
 
-// Puts a state in the place of the one that the job has. `sum` is the checksum of its bytes.
+// Replaces the state of the job. `sum` is the checksum of its bytes.
 void put_state(Database& database, std::int64_t job_id, const Checkpoint& checkpoint,
                std::uint64_t sum);
 

@@ -21,8 +21,8 @@ namespace haff::schema {
 
 namespace {
 
-// Columns that are of the time since the sample before: two jobs have the same only if they sample
-// at the same tau.
+// Columns that are means over the time since the sample before. Two jobs have the same values only
+// if they sample at the same tau.
 constexpr std::array<std::string_view, 3> of_intervals{"gamma_ratio", "collision_rate", "pressure"};
 
 struct Disagreement {
@@ -35,8 +35,8 @@ bool is_same(std::string_view column, double first, double second) {
          last_digits(column) * std::max(std::abs(first), std::abs(second));
 }
 
-// What only one of the two has was not observed, or not known to the program, when the other was
-// taken.
+// A column that only one of the two has was not observed, or not known to the program, when the
+// other was taken.
 std::optional<Disagreement> disagreement(const Sample& first, const Sample& second,
                                          bool has_same_intervals) {
   if (first.time != second.time) return Disagreement{"time", first.time, second.time};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A flipped bit in a job's row of the table jobs, turned back. Rows of results can be computed
-// again, but nothing else knows a job's tau_max. The digest tells when the row is right, and single
-// bits are few: some 64 for each of forty numbers, 8 for each character. That another row than the
-// written one has its digest too happens once in 10^15 times.
+// A flipped bit in a row of the table jobs is turned back. Rows of results can be computed again,
+// but a job's tau_max stands nowhere else. The digest tells when the row is right, and single bits
+// are few: 64 for each of some forty numbers, 8 for each character. Once in 10^15 times a row other
+// than the one that was written would have the same digest.
 #include <algorithm>
 #include <bit>
 #include <optional>
