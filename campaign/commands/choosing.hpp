@@ -9,8 +9,8 @@
 
 namespace haff::campaign {
 
-// Throws schema::QueryError for SQL that is none, and for a condition that is true of no job at
-// all: that is a slip of the keyboard.
+// Throws schema::QueryError for text that is not SQL, and for a condition that holds for no job at
+// all, which is a slip of the keyboard.
 schema::Choice choice_of(const schema::Reader& store, const std::string& where,
                          const std::string& order = {});
 

@@ -41,7 +41,7 @@ CLI::App* add_document(CLI::App& app, std::string& kind) {
   return command;
 }
 
-// Those that print a table or the like, and print JSON when asked.
+// The commands that print a table or the like, and print JSON when asked.
 constexpr std::string_view with_json[] = {"plan",   "run",    "status", "explain",     "query",
                                           "theory", "verify", "retry",  "cancel",      "split",
                                           "merge",  "recall", "cost",   "plot --list", "export"};
@@ -50,7 +50,7 @@ std::string names_with_json() {
   return fmt::format("{}", fmt::join(with_json, ", "));
 }
 
-// A program that reads the output of a command must not be given a table.
+// A program that asks a command for JSON must not get a table.
 void refuse_json_for(const CLI::App& app) {
   const auto commands = app.get_subcommands();
   if (commands.empty()) return;
@@ -61,7 +61,7 @@ void refuse_json_for(const CLI::App& app) {
                                fmt::format("{} prints no JSON; {} do", name, names_with_json()));
 }
 
-// Before the command line is understood: whether its errors are for a program.
+// Whether errors in the command line are for a program, asked before the line is understood.
 bool asks_for_json(int argc, const char* const* argv) {
   return std::any_of(argv + 1, argv + argc,
                      [](const char* word) { return std::string_view(word) == "--json"; });
@@ -81,7 +81,7 @@ std::string complaint(const CLI::App* app, const CLI::Error& error) {
   return fmt::format("campaign: {}\nSee: {} --help\n", error.what(), name);
 }
 
-// The commands, each with its options. The one that was given is known once the line is parsed.
+// The commands, each with its options. Which one was given is known when the line has been parsed.
 class CommandsOffered {
  public:
   explicit CommandsOffered(CLI::App& app) : app_(app) {}
@@ -108,7 +108,7 @@ class CommandsOffered {
   std::vector<Offered> offered_;
 };
 
-// What may stand before every command: which store, and whether output is JSON.
+// Options that may stand before every command: which store, and whether output is JSON.
 template <class Options>
 void share(const CommandLine& line, Options& options) {
   if constexpr (requires { options.store; }) options.store = line.store;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The command line: what was asked for, and with what.
+// The command line: which command was given, with which options.
 #pragma once
 
 #include <cstdint>

@@ -45,7 +45,7 @@ bool takes_value(const CLI::Option& option) {
   return option.get_items_expected_max() > 0;
 }
 
-// "K" of "K:INT in [1 - 1024]": what the value is called, without what it is checked for.
+// The name of a value without the checks on it: "K" of "K:INT in [1 - 1024]".
 std::string value_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   return type.substr(0, type.find(':'));
@@ -76,7 +76,7 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
 
 // ---- man --------------------------------------------------------------------------------------
 
-// roff takes a line that begins with . or ' for a request.
+// For roff a line that begins with . or ' is a request.
 std::string roff(const std::string& text) {
   std::string escaped = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
   escaped = replaced(replaced(escaped, "\n.", "\n\\&."), "\n'", "\n\\&'");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The man page and the completions of shells, made from the description of the command line that
-// also makes --help, so that they cannot say anything else. The hidden command `campaign document`
+// The man page and the completions of shells, made from the same description of the command line as
+// --help, so that they agree with it. The hidden command `campaign document`
 // prints them; `cmake --install` puts them where man and the shells look.
 #pragma once
 

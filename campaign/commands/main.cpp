@@ -53,7 +53,7 @@ using namespace haff::campaign;
 
 namespace {
 
-// Gives each command what it was asked with, and returns its exit code.
+// Carries out each command with its options, and returns its exit code.
 struct CommandDispatcher {
   const CommandLine& line;
 

@@ -32,8 +32,8 @@ CLI::Option* add_duration(CLI::App* command, const std::string& name, Seconds& s
 // An option --where: a condition in SQL over the table jobs (schema/store/choice.hpp).
 CLI::Option* add_where(CLI::App* command, std::string& where, const std::string& what);
 
-// What is wrong with the text of an option that may not be empty: CLI11 does not tell it from one
-// that was not given.
+// The complaint about an empty text of an option that may not be empty: CLI11 takes it for one that
+// was not given.
 std::string not_empty(const std::string& text);
 
 // run/options.cpp

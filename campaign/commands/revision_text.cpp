@@ -23,7 +23,7 @@ using nlohmann::ordered_json;
 using schema::Dismissal;
 using schema::Fate;
 
-// Of jobs that stay as they are, so many are named; the table counts all.
+// At most this many of the jobs that stay as they are are named; the table counts them all.
 constexpr std::size_t most_named = 20;
 
 const char* name(Fate fate) {

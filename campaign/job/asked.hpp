@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What measurements of one moment share.
+// What the measurements of one moment share.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,8 @@ struct Column {
   std::optional<double> schema::Sample::*value;
 };
 
-// What is of a moment. Averages over an interval would need one that is the same everywhere.
+// Columns that hold for a moment. Averages over an interval would need the same interval in all
+// realizations.
 constexpr std::array of_moments{
     Column{"temperature_at_time", &schema::Sample::temperature},
     Column{"a2_at_time", &schema::Sample::a2},

@@ -72,7 +72,7 @@ engine::State Attempt::state_of_equilibration() const {
 void Attempt::begin(const engine::State& state) {
   samples_.clear();
   if (state.collisions > 0) samples_ = store_.samples(claim_.lease.job_id);
-  // What was sampled after this state will come out again, and is compared then.
+  // Samples after this state come out again, and are compared then.
   std::erase_if(samples_, [&](const schema::Sample& sample) {
     return engine::collisions_at(sample.tau, job().particles) > state.collisions;
   });
@@ -100,7 +100,7 @@ void Attempt::make_gas(const engine::State& state) {
   diffusion_.begin(*gas_, state);
 }
 
-// With another number of threads, the gas goes on from its state as if it had been stored.
+// With another number of threads, the gas goes on from its state as if that had been stored.
 void Attempt::adapt_threads() {
   const unsigned wanted = threads_wanted_();
   if (wanted == threads_ || model_of(job()).counts_collisions) return;
@@ -125,7 +125,7 @@ bool Attempt::advance_to(std::int64_t collisions) {
     if (gas_->collisions() == diffusion_.next_look()) diffusion_.look(*gas_);
     report_progress();
     if (gas_->collisions() < collisions && is_asked_to_leave() && !may_go_on_to_synchronization())
-      return false;  // there, what is due is done first: a state may be stored
+      return false;  // what is due there is done first: a state may be stored
   }
   return true;
 }
@@ -191,7 +191,7 @@ bool Attempt::is_asked_to_leave() const {
   return stop_signal() != 0;
 }
 
-// At a limit (SIGUSR1) nothing that was computed is given up.
+// At a limit (SIGUSR1) no computed result is given up.
 bool Attempt::may_go_on_to_synchronization() const {
   return stop_signal() == SIGUSR1 || seconds_to_synchronization() < patience;
 }

@@ -2,9 +2,9 @@
 
 // One attempt at a job: a claim on it, a gas, the samples not yet committed.
 //
-// cooling.cpp and equilibration.cpp say what happens in which order; how it happens is here. The
-// gas collides in short stretches. Between them the coordinator is told how far it is, the lease
-// is renewed, and a wish to stop is heard.
+// cooling.cpp and equilibration.cpp say what happens in which order; here is how it happens. The
+// gas collides in short stretches. Between them the attempt reports to the coordinator, renews its
+// lease, and looks whether it is asked to stop.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class Attempt {
 
   // False if asked to stop, unless the state can be stored soon, at the next synchronization, or a
   // limit asks (SIGUSR1), which leaves the time for that.
-  // Moments in time that come on the way are seen to.
+  // Takes the samples and snapshots at moments in time that come on the way.
   [[nodiscard]] bool advance_to(std::int64_t collisions);
 
   void sample(double tau);    // and the profiles and fields that go with it
@@ -55,7 +55,7 @@ class Attempt {
   bool is_asked_to_leave() const;
 
   Ending leave();
-  // The end of the job: commits what is left, the state too if the job ends at a synchronization.
+  // The end of the job: commits what is left, with the state if the job ends at a synchronization.
   Ending finish(std::optional<double> synchronization_tau,
                 const std::optional<schema::Results>& results);
 
@@ -72,7 +72,7 @@ class Attempt {
   double next_time() const { return std::min(sample_time_, snapshot_time_); }
   void see_to_time(double time);
   void add_snapshot(double tau, double time);
-  // What was measured, without a state: it comes out again after an interruption.
+  // Commits what was measured, without a state: it comes out again after an interruption.
   void commit_rows();
   void forget_pending();  // it is in the store
 
@@ -80,13 +80,13 @@ class Attempt {
   void make_gas(const engine::State& state);
   void adapt_threads();
   void report_progress();
-  // Asked to stop: whether to collide on to the next synchronization first.
+  // Whether an attempt that is asked to stop collides on to the next synchronization first.
   bool may_go_on_to_synchronization() const;
   double seconds_to_synchronization() const;  // expected; infinite before the first collision
   double collisions_per_second() const;
   double tau() const;
   schema::Progress progress(double tau) const;
-  // What the store does not have yet, but for the state.
+  // What the store does not have yet, except the state.
   schema::Commit pending_commit(double tau) const;
   schema::Checkpoint checkpoint(double tau) const;
 

@@ -19,11 +19,12 @@
 namespace haff::campaign {
 namespace {
 
-// The fastest particle is to come this part of the box between two looks, and may come twice as
-// far.
+// Between two looks the fastest particle is to cover this part of the box, and may cover twice as
+// much.
 constexpr double part_of_box = 0.125;
 
-// Fewer collisions than this are too irregular in time to be planned: one is taken at a time.
+// Fewer collisions than this come too irregularly to be planned: the gas then collides once at a
+// time.
 constexpr double plannable = 30;
 
 constexpr double most_ahead = 1e15;  // a whole number still
@@ -116,8 +117,8 @@ void Diffusion::look(const engine::Simulation& gas) {
   const Vectors velocity = by_id(gas.velocities(), gas, gas.exponent());
   const double elapsed = gas.time() - time_;
   const double fastest = std::max(fastest_of(velocity_), fastest_of(velocity));
-  // After one collision only its partners may be elsewhere than their velocities before and after
-  // say, by half of elapsed times the change of velocity: half a box tells images apart.
+  // After one collision only its two partners may be elsewhere than their velocities before and
+  // after say, by half of `elapsed` times the change of velocity. Half a box tells images apart.
   const double allowed = gas.collisions() == collisions_ + 1 ? 0.5 : 2 * part_of_box;
   if (!(fastest * elapsed < allowed * box_))
     throw engine::PhysicsError(
@@ -144,8 +145,8 @@ std::int64_t Diffusion::collisions_ahead(double fastest) const {
   return planned >= plannable ? static_cast<std::int64_t>(std::min(planned, most_ahead)) : 1;
 }
 
-// Of a homogeneous gas: what a gas that has not been watched yet is taken for. One that has
-// clustered collides more often, and is only looked at more often than it needs.
+// The rate of a homogeneous gas, for a gas that has not been watched yet. A gas that has clustered
+// collides more often, and is merely looked at more often than necessary.
 double Diffusion::expected_rate() const {
   const auto mixture = mixture_of(job_);
   double energy = 0;

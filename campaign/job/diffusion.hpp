@@ -2,13 +2,13 @@
 
 // The observables msd and vacf: displacements and velocities compared with those of waiting times.
 //
-// The engine keeps particles in the box. To follow one through its faces, the gas is looked at so
-// often that a particle comes a quarter of the box at most between two looks, and the image that it
-// has reached is the one nearest to where its velocities before and after would have taken it. How
-// often that is decides nothing: what is kept are positions, and whole numbers of boxes. Where
-// collisions are so rare that the gas moves further from one to the next, it is looked at after
-// each; the two particles that collided are then known to within what their change of velocity
-// does.
+// The engine keeps particles in the box. To follow them through its faces, the gas is looked at so
+// often that no particle covers more than a quarter of the box between two looks. The image that a
+// particle has reached is the one nearest to where its velocities before and after would have taken
+// it. How often the gas is looked at does not change the result: only positions and whole numbers
+// of boxes are kept. Where collisions are so rare that particles move further from one to the next,
+// the gas is looked at after each; the places of the two partners are then uncertain by what their
+// change of velocity makes of them.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ class Diffusion {
  public:
   explicit Diffusion(const schema::Job& job);
 
-  // From this state on, with what it holds of earlier looks and waiting times. `gas` starts from
-  // it.
+  // Begins at this state, from which `gas` starts, with the earlier looks and waiting times that it
+  // holds.
   void begin(const engine::Simulation& gas, const engine::State& state);
 
   // The number of collisions at which the gas must be looked at. Without msd and vacf never.
@@ -35,11 +35,11 @@ class Diffusion {
   void look(const engine::Simulation& gas);
 
   // A point of each curve whose waiting time has come: of the profiles msd, diffusion and vacf,
-  // whose tau is the waiting time, and x the collisions per particle since. Begins those whose
-  // waiting time is now.
+  // where tau is the waiting time and x counts the collisions per particle since. Begins the curves
+  // whose waiting time is now.
   std::vector<schema::Profile> sample(const engine::Simulation& gas, double tau);
 
-  // Into the memory of a state that is stored, at a synchronization; the engine passes it by.
+  // Writes into the memory of a state that is stored, at a synchronization; the engine ignores it.
   void store(engine::State& state) const;
 
  private:

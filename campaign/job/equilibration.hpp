@@ -2,8 +2,8 @@
 
 // An equilibration: an elastic gas collides until it has forgotten its lattice.
 //
-// It ends at the first synchronization at or after tau = equilibrate at which a_2, a_3 and a_4 are
-// those of equilibrium; where they are not, it goes on from synchronization to synchronization.
+// It ends at the first synchronization at or after tau = equilibrate at which a_2, a_3 and a_4 have
+// their values in equilibrium, and goes on from synchronization to synchronization until then.
 #pragma once
 
 #include <stdexcept>
@@ -19,7 +19,7 @@ struct NotEquilibrated : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The state came from a file, and is damaged now: nothing can compute it.
+// The state came from a file and is damaged now: it cannot be computed again.
 struct StateWasGiven : std::runtime_error {
   StateWasGiven()
       : std::runtime_error(
@@ -27,7 +27,7 @@ struct StateWasGiven : std::runtime_error {
             "again, and the state is there again") {}
 };
 
-// Of a crystal: its first state, at once.
+// The equilibration of a crystal is its first state, at once.
 Ending equilibrate(Attempt& attempt);
 
 }  // namespace haff::campaign

@@ -21,7 +21,7 @@ std::optional<double> if_finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-// Mean over the time since the last of the earlier rows, which has a temperature.
+// The mean over the time since the last of the earlier rows, which has a temperature.
 double mean_temperature(std::span<const schema::Sample> earlier, const schema::Sample& now) {
   constexpr std::size_t useful = 3;  // beside this row: analysis::mean_temperature uses four
   std::vector<double> time, temperature;
@@ -35,7 +35,7 @@ double mean_temperature(std::span<const schema::Sample> earlier, const schema::S
   return analysis::mean_temperature(time, temperature);
 }
 
-// What is an average over the interval since the row before.
+// The columns that are averages over the interval since the row before.
 void measure_interval(schema::Sample& sample, double virial, double collisions,
                       const schema::Job& job, std::span<const schema::Sample> earlier) {
   if (earlier.empty() || !earlier.back().temperature) return;

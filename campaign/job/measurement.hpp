@@ -12,7 +12,7 @@
 namespace haff::campaign {
 
 // Takes the sample of a job at tau, and the engine's tally with it. `earlier` are the rows before,
-// all or at least the last three; none at the start. What each column is an average of:
+// all or at least the last three; none at the start. What each column is averaged over:
 //   temperature, a_l, rotational and species temperatures, and what goes with profiles   the
 //                    moment of the sample
 //   gamma_ratio      the interval since the row before, over tau: exact, from ln T at its ends
@@ -23,7 +23,7 @@ namespace haff::campaign {
 schema::Sample measure(engine::Simulation& gas, const schema::Job& job, double tau,
                        std::span<const schema::Sample> earlier);
 
-// What of it is of the moment, at tau: nothing is taken.
+// Only the columns that hold for the moment, at tau; the tally stays.
 schema::Sample measure_moment(const engine::Simulation& gas, const schema::Job& job, double tau);
 
 // The end of the homogeneous stage, from all samples of a job.

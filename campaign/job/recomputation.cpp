@@ -60,7 +60,7 @@ void run(schema::Store& store) {
   }
 }
 
-// Rows of snapshots say what their bytes should be; whether they are is another question.
+// A row of snapshots holds the checksum of its bytes. Whether they are intact is another question.
 std::vector<schema::Difference> damaged_snapshots(const schema::Reader& store,
                                                   const schema::JobRow& row) {
   std::vector<schema::Difference> found;

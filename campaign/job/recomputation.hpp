@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A finished job once more, from its parameters and the state it starts from. The same job gives
-// the same bits: what comes out differs from what is stored only if one of the two was disturbed.
+// A finished job, computed once more from its parameters and the state that it starts from. The
+// same job gives the same bits: results differ from those in the store only if one of the two was
+// disturbed.
 #pragma once
 
 #include <array>
@@ -14,13 +15,13 @@
 
 namespace haff::campaign {
 
-// This program cannot compute the job's bits again: another physics version did.
+// This program cannot compute the job's bits again: they are of another physics version.
 struct OtherPhysics : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What came out, in a store of its own that is gone with it. A cooling job brings a copy of its
-// equilibration.
+// The results, in a store of their own that is deleted with this object. Beside a cooling job there
+// is a copy of its equilibration.
 struct Recomputation {
   schema::Store store;
   std::int64_t job_id = 0;  // in this store
@@ -31,13 +32,13 @@ struct Recomputation {
 // what the engine throws.
 Recomputation recompute(const schema::Reader& store, const schema::JobRow& row);
 
-// What a second computation gives. A job has its row, its cost and its newest state beside.
+// The parts that a second computation gives. A job also has its row, its cost and its newest state.
 inline constexpr std::array computed_parts{schema::Part::samples, schema::Part::profiles,
                                            schema::Part::fields, schema::Part::snapshots,
                                            schema::Part::results};
 
-// Every value of these parts, and of an equilibration the state it ended in, that is not the same
-// in all bits.
+// Every value of these parts, and of the last state of an equilibration, that is not the same in
+// all bits.
 std::vector<schema::Difference> differences(const schema::Reader& store, const schema::JobRow& row,
                                             const Recomputation& again);
 

@@ -2,8 +2,8 @@
 
 // What a worker tells its coordinator: one line of JSON a report, through a pipe.
 //
-// Progress goes this way and not through the store, which hears of it every few seconds only. A
-// report that the coordinator is too busy to take is dropped: work never waits for it.
+// Progress goes this way, and reaches the store only every few seconds. A report that the
+// coordinator is too busy to take is dropped: work never waits for it.
 #pragma once
 
 #include <cstdint>

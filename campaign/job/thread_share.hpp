@@ -15,8 +15,8 @@ struct ThreadShare {
   int processors = 1;  // of all workers of a run together
 };
 
-// The threads of a job, while so many jobs are at work or could be: the processors are shared out
-// evenly, but no job gets more than make it faster.
+// The threads of a job while this many jobs are at work or could be: the processors are shared out
+// evenly, but no job gets more of them than make it faster.
 unsigned threads_for(const schema::Job& job, const ThreadShare& share, std::int64_t jobs);
 
 }  // namespace haff::campaign

@@ -10,11 +10,11 @@
 namespace haff::campaign {
 namespace {
 
-// k sample_every and tau_max are both rounded: what differs by less than this is the same place.
+// k sample_every and tau_max are both rounded: values that differ by less than this are equal.
 // [relative]
 constexpr double rounding = 1e-12;
 
-// Samples at other tau are sample_every away.
+// Samples at different tau are sample_every apart.
 bool is_same(double tau, double other, double sample_every) {
   return std::abs(tau - other) < 0.5 * sample_every;
 }
@@ -156,7 +156,7 @@ std::optional<Stop> Timetable::next() {
   return stop;
 }
 
-// At the same collision a sample comes before a snapshot, and that before a synchronization.
+// At the same collision a sample comes before a snapshot, and a snapshot before a synchronization.
 std::optional<Stop> Timetable::first() const {
   std::optional<Stop> first;
   for (const auto& stop : {sample(), snapshot(), synchronization()})

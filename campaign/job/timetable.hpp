@@ -24,7 +24,7 @@ inline constexpr std::size_t most_waiting_snapshots = std::size_t{64} << 20;
 // rounding puts just above tau_max (3 x 0.1 > 0.3) is one of them.
 std::int64_t sample_count(double sample_every, double tau_max);
 
-// The same of all samples of a job. Walks through those of sample_at.
+// The number of all samples of a job. Walks through those of sample_at.
 std::int64_t sample_count(const schema::Job& job, double tau_max);
 
 // How many of these moments are not after tau_max.
@@ -81,7 +81,7 @@ class Timetable {
   // All stops of the job up to tau_max, in the order of collisions, samples first, then snapshots.
   Timetable(const schema::Job& job, double tau_max, double checkpoint_every);
 
-  // Leaves out what a state stored after so many collisions has behind it.
+  // Leaves out the stops that lie before a state stored after this many collisions.
   void skip_through(std::int64_t collisions);
 
   // The next stop; nothing at the end.

@@ -27,7 +27,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-// A gas at one moment. Velocities are scaled by 2^exponent: `power` 1 turns a velocity, 2 an
+// A gas at one moment. Velocities are scaled by 2^exponent. `power` 1 brings a velocity, 2 an
 // energy into true units, exactly.
 struct Snapshot {
   Snapshot(const engine::Simulation& gas, const schema::Job& its_job)

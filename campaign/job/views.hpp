@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What the whole gas shows beside a sample: curves, and the gas in cells.
+// What is measured of the whole gas beside a sample: curves, and the gas in cells.
 //
 // An observable that is taken with profiles is one line in the table of views.cpp, from its name to
 // the function that measures it.

@@ -14,10 +14,10 @@
 namespace haff::campaign {
 namespace {
 
-// Two values that differ by less were meant to be one. [relative]
+// Two values that differ by less were meant to be equal. [relative]
 constexpr double twins = 1e-9;
 
-// A value of each job that may be written with rounding; nothing where it has none.
+// A parameter of each job that may be typed with rounding; nothing where the job has none.
 struct Parameter {
   const char* name;
   std::optional<double> (*of)(const schema::Job&);

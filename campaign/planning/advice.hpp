@@ -16,8 +16,8 @@ namespace haff::campaign {
 std::vector<std::string> near_twins(const std::vector<schema::Planned>& plan,
                                     const std::vector<schema::JobRow>& known);
 
-// How many cooling jobs of the plan are new, but for their observables equal to one of the store
-// that has run: observables are part of a job, so that its gas is computed a second time.
+// How many new cooling jobs of the plan differ only in their observables from a job of the store
+// that has run. Observables are part of a job, so that such a gas is computed a second time.
 std::size_t recomputed(const std::vector<schema::Planned>& plan,
                        const std::vector<schema::JobRow>& known);
 

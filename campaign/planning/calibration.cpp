@@ -23,24 +23,26 @@ namespace {
 constexpr std::uint32_t largest = 200'000;
 constexpr double densest = 0.9;
 
-// Growth takes a millisecond a particle near random close packing. So many tell what a particle of
-// a larger gas costs, or as many as make a box in which the search need not look at images. [sigma]
+// Growth takes a millisecond a particle near random close packing. This many particles tell what
+// one of a larger gas costs, or as many as make a box of this width, in which the search need not
+// look at images. [sigma]
 constexpr std::uint32_t most_grown = 500;
 constexpr double widest_grown = 7;
 
-// What is shorter is repeated, so that what happens once in a process is not taken for a part of
-// every job: the first use of code and memory, the plans of FFTW. [s]
+// A shorter action is repeated, so that what happens once in a process (the first use of code and
+// memory, the plans of FFTW) is not counted for every job. [s]
 constexpr double long_enough = 5e-3;
 
-// Large enough to tell the memory of a particle in a larger one, too.
+// A gas large enough to tell the memory of a particle in a larger one.
 constexpr std::uint32_t small_gas = 16'000;
 
-// Between two looks at the clock, where samples do not come more often; and the least that is run,
-// so that effects which act once per collision and particle are seen. [collisions per particle]
+// The stretch between two looks at the clock, unless samples come more often; and the least that is
+// run, so that effects which act once per collision and particle are seen. [collisions per
+// particle]
 constexpr double stretch = 1;
 
-// Measured with N = 32 000: to store a state takes so many times what encoding it does (the
-// checksum and SQLite's way to the disk), to read one back and check it half of that.
+// The times to store a state (the checksum, SQLite and the disk), and to read one back and check
+// it, in units of the time to encode it; measured with N = 32 000.
 constexpr double storing = 8;
 constexpr double reading = 4;
 
@@ -73,7 +75,7 @@ class Stopwatch {
   double before_ = cpu_seconds();
 };
 
-// CPU time of an action, when it is not the first of its kind. [s]
+// CPU time of an action that is not the first of its kind. [s]
 template <class Action>
 double price_of(Action&& action) {
   Stopwatch watch;
@@ -87,7 +89,7 @@ double price_of(Action&& action) {
   return sum / repeats;
 }
 
-// One look at the gas that takes what `views` asks for, as the first sample of every job does.
+// CPU time of what `views` asks for, taken once, as with the first sample of every job.
 double price_of_view(const engine::Simulation& gas, const schema::Job& views) {
   return price_of([&] {
     schema::Sample sample;
@@ -95,7 +97,7 @@ double price_of_view(const engine::Simulation& gas, const schema::Job& views) {
   });
 }
 
-// What running and sampling cost.
+// The cost of running and sampling.
 struct Trial {
   double running = 0, sampling = 0;  // [s]
   double samples = 0, collisions = 0, synchronizations = 0;

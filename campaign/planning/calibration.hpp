@@ -18,13 +18,13 @@ struct Prices {
   double commit = 0;    // storing the state
 };
 
-// Cools, or equilibrates, such a gas for some `seconds` of CPU time, at most to tau_max, and
-// measures what the job does. Large gases are tried at 200 000 particles, beyond which speed hardly
-// changes; crowded ones that begin on a lattice at n = 0.9; those that must grow, which takes
-// longer than anything else, at 500. What happens once in a process is not in these prices.
+// Cools, or equilibrates, such a gas for `seconds` of CPU time, at most to tau_max, and times the
+// parts of the job. Large gases are tried with 200 000 particles, beyond which speed hardly
+// changes; dense ones that begin on a lattice at n = 0.9; those that must grow, which takes longer
+// than anything else, with 500. What happens once in a process is not in these prices.
 Prices try_out(const schema::Job& job, double tau_max, double seconds);
 
-// What a particle of such a gas takes. [bytes]
+// The memory that a particle of such a gas takes. [bytes]
 struct Sizes {
   double engine = 0;  // of the memory of a running job
   double state = 0;   // of a stored state

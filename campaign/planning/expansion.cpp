@@ -30,7 +30,7 @@ class Plan {
   std::unordered_map<std::string, std::size_t> places_;
 };
 
-// How long gases that start so are equilibrated: those of a crystal or a file not at all.
+// How long gases with this start are equilibrated: not at all if it is a crystal or a file.
 std::vector<double> equilibrations(const schema::SubGrid& grid, const schema::AskedStart& asked) {
   return asked.start.is_equilibrated() ? grid.equilibrate : std::vector<double>{0};
 }

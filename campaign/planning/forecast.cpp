@@ -21,10 +21,11 @@
 namespace haff::campaign {
 namespace {
 
-// CPU time below which a speed in the store says less than a trial would. [s]
+// A speed in the store from less CPU time than this is less exact than a trial. [s]
 constexpr double trustworthy = 0.2;
 
-// A trial takes so long; in a plan of many gases those after the first ten take a tenth. [s]
+// The length of a trial; in a plan of many gases, trials after the first ten take a tenth of it.
+// [s]
 constexpr double trial_seconds = 0.25;
 constexpr std::size_t trials_at_length = 10;
 
@@ -42,15 +43,15 @@ constexpr double transform_bytes = 2.5e6;  // FFTW and its plans, where somethin
 constexpr double sample_bytes = 115;
 constexpr double job_bytes = 1000;
 
-// Jobs of which this is equal are as fast as each other: it names all that is computed and measured
-// between two collisions. How they began, and from which seed, does not matter.
+// Jobs with equal keys are equally fast: the key names all that is computed and measured between
+// two collisions. How the jobs began, and from which seed, does not matter.
 std::string alike(schema::Job job) {
   job.equilibrate = 0;
   return schema::series_identity(job);
 }
 
-// The same for any e, which matters less: where no job of the same e has run, and in trials, which
-// are over before a gas that cools has become another than one that does not.
+// The same for any e, which matters less. It is used where no job of the same e has run, and in
+// trials, which are over before cooling changes the gas.
 std::string alike_but_for_e(schema::Job job) {
   job.e = std::nullopt;
   return alike(std::move(job));

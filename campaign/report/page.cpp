@@ -77,8 +77,8 @@ ordered_json origin_json(const std::vector<schema::JobRow>& jobs) {
   for (const schema::JobRow& row : jobs)
     if (row.code_version) ++writers[{*row.code_version, row.host.value_or("")}];
   ordered_json written = ordered_json::array();
-  for (const auto& [who, count] : writers)
-    written.push_back({{"code_version", who.first}, {"host", who.second}, {"jobs", count}});
+  for (const auto& [writer, count] : writers)
+    written.push_back({{"code_version", writer.first}, {"host", writer.second}, {"jobs", count}});
   return {{"program", version_text()},
           {"processors", processors()},
           {"memory_bytes", memory_bytes()},

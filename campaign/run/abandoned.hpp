@@ -12,9 +12,9 @@
 
 namespace haff::campaign {
 
-// A process on another host, or in another container, cannot be looked at: its lease ends when it
-// has not been renewed for this long. Workers renew every few seconds, but a commit may have to
-// wait for others.
+// A process on another host, or in another container, cannot be seen: its lease ends when it has
+// not been renewed for this long. Workers renew their leases every few seconds, but a commit may
+// have to wait for others.
 inline constexpr std::chrono::seconds lease_time{300};
 
 // Whether the owner of a job was on this host and is dead.
@@ -30,8 +30,8 @@ class LeaseWatch {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // Whether nothing works on the job any more, so that another worker may take it. To be asked
-  // again and again, of all running jobs.
+  // Whether no process works on the job any more, so that another worker may take it. To be asked
+  // again and again for all running jobs.
   bool is_abandoned(const schema::RunningJob& job, Clock::time_point now = Clock::now());
 
  private:

@@ -32,15 +32,16 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using Level = LogReport::Level;
 
-constexpr auto listen_for = 100ms;     // at most, until something else is looked after
+constexpr auto listen_for = 100ms;     // at most, before other tasks are attended to
 constexpr auto look_after_store = 1s;  // dead owners, progress of other runs
 constexpr auto log_progress_every = 10s;
 constexpr auto grace = 5s;  // to leave in order; a transaction cut short is undone
 
-// A log that is copied each second stays below the largest commits of a second. [bytes]
+// A log that is copied each second stays smaller than this, the largest commits of a second.
+// [bytes]
 constexpr std::int64_t remarkable_log = std::int64_t{64} << 20;
 
-// Workers that die again and again without a job in hand will not do better next time.
+// Workers that die again and again without a job would do so the next time, too.
 constexpr int hopeless = 5;
 
 // Kills in a row, without progress, that do not cost a job an attempt.
@@ -102,7 +103,7 @@ class Coordinator {
  private:
   bool is_stopping() const { return stopping_since_.has_value(); }
 
-  // To people, and to the log for programs.
+  // Reports to people, and to the log for programs.
   void tell(const LogReport& what) {
     display_.log(what.level, what.text);
     if (!log_.is_open()) return;
@@ -198,7 +199,7 @@ class Coordinator {
         give_back(held);
         stop(SIGTERM);
       } else if (end.is_exit(worker_was_stopped)) {
-        // By us, or by a signal meant for this worker alone: then it is replaced.
+        // It was stopped by us, or by a signal to this worker alone: then it is replaced.
         give_back(held);
       } else {
         charge(held, end);
@@ -247,9 +248,9 @@ class Coordinator {
         "workers end before they take a job: {}; run again with --verbose", end.text()));
   }
 
-  // SIGKILL comes from outside and says little about the job: a person, a machine that shuts
-  // down. Only a job whose workers are killed again and again while it gets no further may itself
-  // be the reason, by the memory it takes.
+  // SIGKILL comes from outside, from a person or a machine that shuts down, and says little about
+  // the job. Only where workers of a job are killed again and again while it gets no further may
+  // the job itself be the reason, by the memory that it takes.
   bool excuses_kill(const schema::RunningJob& job) {
     Kills& kills = kills_[job.lease.job_id];
     const double tau = store_.stored_tau(job.lease.job_id);
@@ -257,7 +258,7 @@ class Coordinator {
     return ++kills.count <= excused_kills;
   }
 
-  // What a worker could not store any more; if we cannot either, the next run does.
+  // Stores what a worker could not store any more. If this fails too, the next run does it.
   void give_back(const std::vector<schema::RunningJob>& held) {
     try {
       for (const schema::RunningJob& job : held) store_.reclaim(job.lease);
@@ -278,7 +279,7 @@ class Coordinator {
     }
   }
 
-  // Those of this run are looked after when their workers are reaped.
+  // Jobs of this run are seen to when their workers are reaped.
   void look_after_abandoned() {
     looked_ = Clock::now();
     for (const schema::RunningJob& job : store_.running()) {
@@ -290,7 +291,7 @@ class Coordinator {
     }
   }
 
-  // Is the store still where it was, and does its log stay small?
+  // Looks whether the store is still where it was, and keeps its log small.
   void look_after_file() {
     if (const auto what = store_.displaced()) {
       tell(Level::error, fmt::format("{} {}; stopping", store_.path().string(), *what), "stopping");
@@ -332,7 +333,7 @@ class Coordinator {
            "stopping");
       stop(SIGUSR1);
     }
-    // A limit lets each worker go on to where its gas can be stored; a signal does not wait long.
+    // At a limit each worker goes on to where its gas can be stored; a signal does not wait long.
     if (is_stopping() && stop_signal() != 0) stop(SIGTERM);
     if (hurried_since_ && (stop_signals() > 1 || now - *hurried_since_ > grace))
       for (const auto& worker : workers_)
@@ -358,7 +359,7 @@ class Coordinator {
 
   schema::Selection& store_;
   const RunOptions& options_;
-  Clock::time_point start_;  // of the run, of which this may be a later round
+  Clock::time_point start_;  // of the run; this may be a later round of it
   EventLog& log_;
   std::map<std::size_t, ProgressReport> at_work_;  // by worker
   Clock::time_point progress_logged_;
@@ -387,7 +388,7 @@ RoundEnd run_round(schema::Selection& store, const RunOptions& options,
   const auto running = before.jobs.at(schema::Status::running);
   const auto useful = before.claimable + before.waiting + running;
   if (useful == 0) return {};
-  // Nothing is begun of which nothing could be stored.
+  // No job is begun if nothing of it could be stored.
   const auto fit = what_fits(deadline_of(options, start));
   if (fit && running == 0 && before.claimable > 0 && !store.has_claimable(fit))
     return {.over_limit = true, .seconds_needed = least_seconds_needed(store)};

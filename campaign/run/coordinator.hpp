@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // The coordinator of a run: it starts workers, listens to them, replaces those that die and takes
-// back the jobs of the dead. The workers choose and do the jobs by themselves.
+// back their jobs. The workers choose and do the jobs by themselves.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ namespace haff::campaign {
 struct RunOptions {
   std::filesystem::path store;
   int workers = 1;
-  // Of each worker. 0: the workers' processors, one for each, are shared out among the jobs.
+  // For each worker. 0: the processors, one for each worker, are shared out among the jobs.
   int threads = 0;
   std::optional<double> max_seconds;  // wall clock
   std::optional<double> cpu_budget;   // of all workers together [s]
@@ -36,8 +36,8 @@ struct RoundEnd {
   std::optional<double> seconds_needed;
 };
 
-// Runs all pending jobs that are chosen, and returns when all workers have ended. `start` is that
-// of the whole run, of which this may be a later round: its time limit counts from there.
+// Runs all pending jobs that are chosen, and returns when all workers have ended. `start` is when
+// the whole run began, of which this may be a later round: its time limit counts from there.
 RoundEnd run_round(schema::Selection& store, const RunOptions& options,
                    std::chrono::steady_clock::time_point start, EventLog& log);
 

@@ -2,8 +2,8 @@
 
 // What a run shows of itself on stderr: a bar for each worker where stderr is a terminal, a plain
 // line from time to time where it is a file or a pipe. Log lines go through here too, so that
-// they and the bars do not write over each other. Nothing here throws when the terminal is gone:
-// a run goes on without being seen, until SIGHUP stops it in order.
+// they and the bars do not write over each other. No function here throws when the terminal is
+// gone: a run goes on unseen until SIGHUP stops it in order.
 #pragma once
 
 #include <chrono>
@@ -48,8 +48,8 @@ class Display {
   std::chrono::steady_clock::time_point shown_;
 };
 
-// The lines of one picture, each at most `width` characters: one a worker and one for the whole.
-// Where they are more than `height` lines, that for the whole alone.
+// The lines of one picture, each of at most `width` characters: one for each worker and one for the
+// whole. Where this is more than `height` lines, only the one for the whole.
 std::vector<std::string> bars(const std::vector<std::optional<ProgressReport>>& workers,
                               const Totals& totals, std::size_t width, std::size_t height);
 // The same in one line.

@@ -21,9 +21,9 @@ class EventLog {
   void open(const std::filesystem::path& file);
   bool is_open() const { return descriptor_ >= 0; }
 
-  // {"time": ..., "event": ..., and the fields}. A line is written at once and whole, so that
-  // several runs may share a file. When the file cannot be written any more, that is said once on
-  // stderr, and the run goes on without it.
+  // {"time": ..., "event": ..., and the fields}. Each line is written whole, by one call, so that
+  // several runs may share a file. When the file cannot be written any more, a message on stderr
+  // says so once, and the run goes on without it.
   void add(std::string_view event, const nlohmann::ordered_json& fields);
 
  private:

@@ -56,7 +56,7 @@ std::optional<Holder> holder_of(const fs::path& path) {
   return holder;
 }
 
-// What a command does that finds the lock of a living process of its own host.
+// What a command does when it finds the lock of a living process of its own host.
 enum class Manners { share, take_over, wait };
 
 Manners manners(Use mine, Use theirs) {

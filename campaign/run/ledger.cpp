@@ -8,20 +8,20 @@
 namespace haff::campaign {
 namespace {
 
-// Reading all jobs may take this part of the time at most.
+// Reading all jobs may take at most this part of the time.
 constexpr double share_of_reading = 0.02;
 
-// Without an expectation: a million collisions a second. Only ratios count.
+// Where no cost is expected, a million collisions a second; only ratios count.
 double weight_of(const schema::JobRow& row) {
   return row.expected_cpu_seconds.value_or(0.5e-6 * row.tau_max * row.job.particles);
 }
 
-// From an index, unless only some jobs count.
+// The counts come from an index, unless only some jobs count.
 std::map<schema::Status, std::int64_t> counts_of(const schema::Selection& store) {
   return store.choice().is_everything() ? store.job_counts() : store.summary().jobs;
 }
 
-// Nothing is left to do. Of a failed job, what it had stored counts.
+// Nothing is left to do. What a failed job had stored counts as done.
 bool is_complete(schema::Status status) {
   return status == schema::Status::done || status == schema::Status::collapsed;
 }
@@ -74,7 +74,7 @@ void Ledger::update(const schema::JobRow& row) {
   if (!is_new) --counts_[entry.status];
   ++counts_[row.status];
   const double stored = std::min(1.0, row.progress.tau / row.tau_max);
-  // Between two commits a running job is further than the store knows.
+  // Between two commits a running job has come further than is stored.
   const bool goes_on = row.status == schema::Status::running && entry.status == row.status;
   entry.fraction = is_complete(row.status) ? 1
                    : goes_on               ? std::max(entry.fraction, stored)

@@ -38,7 +38,7 @@ std::vector<std::string> environment_with(const RunOutcome& outcome) {
   return all;
 }
 
-// The child answers signals in the usual way, not in that of this process.
+// The child reacts to signals in the default way, not in the way of this process.
 pid_t start(const std::string& command, const RunOutcome& outcome) {
   std::vector<std::string> environment = environment_with(outcome);
   std::vector<char*> entries;

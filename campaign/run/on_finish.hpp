@@ -18,8 +18,8 @@ struct RunOutcome {
   std::filesystem::path store;  // CAMPAIGN_STORE: an absolute path
 };
 
-// Gives the command to /bin/sh and waits for its end; a signal that asks to stop is passed on. That
-// it cannot be started, or fails, is said on stderr and changes nothing else.
+// Gives the command to /bin/sh and waits for its end; a signal that asks to stop is passed on. If
+// it cannot be started, or fails, a message on stderr says so, and nothing else changes.
 void run_on_finish(const std::string& command, const RunOutcome& outcome);
 
 }  // namespace haff::campaign

@@ -26,7 +26,7 @@ std::string boot_id() {
   return id;
 }
 
-// Containers of one host share its boot id but count their processes each on their own.
+// Containers of one host share its boot id, but each counts its own processes.
 std::string id_space() {
   std::array<char, 64> space{};
   if (readlink("/proc/self/ns/pid", space.data(), space.size() - 1) < 0) return "unknown";
@@ -38,8 +38,8 @@ struct Stat {
   std::int64_t start = 0;  // clock ticks since boot
 };
 
-// Fields 3 and 22 of proc(5). A process that has ended and was not yet reaped has a start, but
-// no life.
+// Fields 3 and 22 of proc(5). A process that has ended and was not yet reaped still has a start,
+// but is not alive.
 Stat stat_of(std::int64_t id) {
   std::ifstream file(fmt::format("/proc/{}/stat", id));
   std::string line;

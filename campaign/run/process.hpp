@@ -2,9 +2,9 @@
 
 // What tells a process from every other, and whether it still lives.
 //
-// A process id alone is not enough: ids are used again, machines restart, containers number
-// their processes on their own. So the owner of a job is named by its host, the boot of the
-// kernel with the namespace ids are counted in, its id and the moment it started.
+// A process id alone is not enough: ids are used again, machines restart, and containers number
+// their own processes. So the owner of a job is named by its host, the boot of the kernel, the
+// namespace in which ids are counted, its id, and the moment when it started.
 #pragma once
 
 #include <sys/types.h>

@@ -11,7 +11,7 @@ namespace haff::campaign {
 
 unsigned threads_now(const schema::Job& job, const ThreadShare& share,
                      const schema::Selection& store) {
-  // Where the answer is known, the store need not be asked.
+  // Where the answer is known, the store is not asked.
   const unsigned most = threads_for(job, share, 1);
   if (share.threads > 0 || most == 1) return most;
   const std::string host = this_process().host;

@@ -7,7 +7,7 @@
 
 namespace haff::campaign {
 
-// Jobs of others count too: they free jobs that wait for them, or come back unfinished.
+// Jobs of other runs count too: jobs may wait for them, and they may come back unfinished.
 inline bool may_have_work(const schema::Summary& summary) {
   return summary.claimable + summary.waiting + summary.jobs.at(schema::Status::running) > 0;
 }

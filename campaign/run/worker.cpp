@@ -34,11 +34,11 @@ namespace {
 
 using Level = LogReport::Level;
 
-// What a worker with nothing to do waits before it looks again. Looking is reading: an idle worker
-// takes no write lock.
+// How long a worker with nothing to do waits before it looks again. It only reads then: an idle
+// worker takes no write lock.
 constexpr std::chrono::milliseconds idle{100};
 
-// Expected CPU times are of this machine when it is not busy, and of a gas before it clusters.
+// Expected CPU times hold for this machine when it is not busy, and for a gas before it clusters.
 constexpr double margin = 1.5;
 
 // Returns when the store is no longer as it was `seen`, or when asked to stop.
@@ -50,7 +50,7 @@ std::string name_of(const schema::Claim& claim) {
   return fmt::format("job {} ({})", claim.lease.job_id, describe(claim.job));
 }
 
-// Inelastic collapse is not an error, it is where constant e ends.
+// Inelastic collapse is no error: it is where the model of a constant e ends.
 Ending drive(Attempt& attempt, const Reporter& reporter) try {
   return attempt.job().kind == schema::Kind::equilibration ? equilibrate(attempt) : cool(attempt);
 } catch (const engine::Collapse& collapse) {
@@ -67,8 +67,8 @@ struct Failure {
   bool again = true;  // another attempt may succeed
 };
 
-// What went wrong with the job, nothing if it is done or was left. Errors of the store are not
-// the job's fault and are passed on.
+// What went wrong with the job; nothing if it is done or was left. Errors of the store have other
+// causes than the job and are passed on.
 std::optional<Failure> failure_of(Attempt& attempt, const Reporter& reporter) {
   std::string why;
   bool again = true;
@@ -85,7 +85,7 @@ std::optional<Failure> failure_of(Attempt& attempt, const Reporter& reporter) {
     throw;
   } catch (const std::bad_alloc&) {
     why = "out of memory: run fewer workers";
-  } catch (const std::invalid_argument& error) {  // a gas that cannot be, whenever it is tried
+  } catch (const std::invalid_argument& error) {  // a gas that is impossible, however often tried
     why = fmt::format("{}; {}", error.what(), would_fail_again);
     again = false;
   } catch (const NotEquilibrated& error) {
@@ -175,7 +175,7 @@ int work(const std::filesystem::path& path, int report_descriptor, const WorkerO
     }
     return worker_was_stopped;
   } catch (const schema::Locked& error) {
-    // Asked to stop while another process keeps the store: the job is taken back by the next run.
+    // It was asked to stop while another process held the store: the next run takes the job back.
     if (stop_signal() != 0) return worker_was_stopped;
     reporter.send(LogReport{Level::error, error_text(error)});
     return worker_cannot_use_store;

@@ -17,13 +17,13 @@ namespace haff::campaign {
 inline constexpr int worker_has_finished = 0;       // no job is left
 inline constexpr int worker_was_stopped = 75;       // by a signal; EX_TEMPFAIL of sysexits.h
 inline constexpr int worker_cannot_use_store = 74;  // disk full, locked; EX_IOERR
-inline constexpr int worker_has_no_time = 76;  // of no job that is left could anything be stored
+inline constexpr int worker_has_no_time = 76;  // too little is left for any job to store something
 
 // When the run must end, on the clock that all processes of a host share.
 using Deadline = std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>>;
 
-// What can be stored of a job before the deadline, if there is one: as far as its next
-// synchronization, or its end.
+// How far a job must be expected to get before the deadline, if there is one: to its next
+// synchronization, or to its end.
 std::optional<schema::Fit> what_fits(std::optional<Deadline> deadline);
 
 // The time that the shortest of the jobs that can be claimed needs to store something, with a
@@ -38,8 +38,8 @@ struct WorkerOptions {
 };
 
 // Works on the store; reports go to this file descriptor. Stops in order on the signals of
-// base/signals.hpp; on SIGUSR1 only after a first checkpoint of its job is stored. Returns an exit
-// code of the above.
+// base/process/signals.hpp; on SIGUSR1 only after a first checkpoint of its job is stored. Returns
+// one of the exit codes above.
 int work(const std::filesystem::path& store, int report_descriptor, const WorkerOptions& options);
 
 }  // namespace haff::campaign

@@ -53,7 +53,7 @@ WorkerProcess::WorkerProcess(const std::filesystem::path& store, const WorkerOpt
     words.emplace_back("--until");
     words.push_back(fmt::format("{}", options.deadline->time_since_epoch().count()));
   }
-  // As one word each: what was typed may begin with a dash.
+  // Each is one word, --option=value, since the value may begin with a dash.
   if (!options.where.empty()) words.push_back("--where=" + options.where);
   if (!options.order.empty()) words.push_back("--order=" + options.order);
   std::vector<char*> arguments;

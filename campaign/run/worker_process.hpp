@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A worker as its coordinator sees it: a child process and the pipe it reports through.
+// A worker as its coordinator sees it: a child process and the pipe through which it reports.
 //
-// It is this same program, started again (fork and exec) rather than forked only: a SQLite
-// connection must not cross a fork, a fresh process has no locks, threads or half-written buffers
-// of its parent, and /proc/self/exe stays this very program even while a newer one is installed.
+// It is this same program, started again (fork and exec) and not merely forked: a SQLite connection
+// must not cross a fork, a new process has no locks, threads or half-written buffers of its parent,
+// and /proc/self/exe stays this very program even while a newer one is being installed.
 #pragma once
 
 #include <sys/types.h>
@@ -36,7 +36,7 @@ class WorkerProcess {
 
   // Sends a signal, if it lives.
   void signal(int number) const;
-  // SIGKILL, which is then known to be ours.
+  // Sends SIGKILL, and remembers that the signal was ours.
   void kill_now();
 
   // True once it has ended; it stays in the process table until reap(), so that its number is not

@@ -19,16 +19,16 @@ static_assert(std::endian::native == std::endian::little,
               "checkpoints are little-endian: swap bytes here for this machine");
 
 constexpr std::string_view magic = "HAFFGAS\n";
-// Version 1 had no invariants but momentum_removed, and no memory; version 2 knew only d = 3;
-// version 3 did not say which physics_version it was computed with: the first.
+// Version 1 had no invariants but momentum_removed, and no memory; version 2 had only d = 3;
+// version 3 did not name its physics_version, which was the first.
 constexpr std::uint32_t version = 4;
 constexpr std::string_view physics = "physics_version";
 
 // What laws of restitution remember is stored under these names, followed by their own.
 constexpr std::string_view memory_prefix = "memory.";
 
-// The fields of a state by name, but for its memory. The structured binding counts them: a field
-// added to State and not here does not compile.
+// The fields of a state by name, except its memory. The structured binding counts them: with a
+// field that is in State and not here, this does not compile.
 template <class State, class Visit>
 void for_each_field(State& state, Visit&& visit) {
   auto& [d, box, id, position, velocity, exponent, collisions, time, tally, invariants, memory] =
@@ -151,8 +151,8 @@ struct Stored {
   std::span<const std::byte> bytes;
 };
 
-// A state has some fifteen fields, and an effect adds one or two: many more are none of ours, and
-// would be looked through again for each.
+// A state has some fifteen fields, and an effect adds one or two. A file with many more is not
+// ours, and each field would be looked for among all of them.
 constexpr std::uint32_t most_fields = 64;
 
 std::vector<Stored> read_table(Reader& reader, std::uint32_t fields) {

@@ -25,12 +25,12 @@ struct DamagedCheckpoint : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A sound checkpoint that a newer program wrote: not damage, and nothing to throw away.
+// A sound checkpoint that a newer program wrote: it is not damaged, and not to be thrown away.
 struct NewerCheckpoint : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What stands at the end of a checkpoint with these bytes before it.
+// The checksum at the end of a checkpoint with these bytes before it.
 std::uint64_t checkpoint_checksum(std::span<const std::byte> bytes);
 
 std::vector<std::byte> encode(const engine::State& state);

@@ -13,15 +13,16 @@
 namespace haff::campaign {
 namespace {
 
-// A sample and a checkpoint at the same tau sum the same velocities; the order of the sum may
+// A sample and a checkpoint at the same tau are sums over the same velocities, in an order that may
 // differ between two machines or versions. [relative]
 constexpr double energy_rounding = 1e-11;
 
-// A thermostat's noise puts its energy in at random: a gas of two particles may well get twice the
-// mean, none gets a hundred times that.
+// A thermostat puts energy in at random. A gas of two particles may well get twice the mean, but
+// none gets a hundred times as much.
 constexpr double most_heat = 100;
 
-// The most energy that a gas can have had put in until then, as total_energy() counts. [E(0)]
+// An upper bound for the energy that was put into a gas until then, as total_energy() counts it.
+// [E(0)]
 double energy_put_in(const engine::State& state, const schema::Job& job) {
   const double heat =
       most_heat * job.effects.parameter("thermostat", "rate").value_or(0) * state.time;

@@ -8,7 +8,7 @@
 //   radius, mass, id
 //   omega             angular velocity of rough particles [sqrt(E(0)/m)/sigma]
 //
-// Numbers have all their digits: what is read back is the same state. Several of them, one after
+// Numbers have all their digits, so that the same state is read back. Several of them, one after
 // the other, are a trajectory.
 #pragma once
 
@@ -25,7 +25,7 @@ namespace haff::campaign {
 // `facts`: further "key=value" of the second line, with blanks between them.
 void write_xyz(const engine::State& state, const std::string& facts, std::ostream& out);
 
-// As a value in that line: a text in quotes.
+// A text in quotes, as a value of that line.
 std::string quoted_for_xyz(const std::string& text);
 
 // What a file says, in the order of its lines. Columns that it does not have are empty.
@@ -39,8 +39,9 @@ struct Frame {
   std::vector<std::uint32_t> id;
 };
 
-// Reads one gas, with columns in any order: pos and velo (or vel) must be there, and all of these
-// numbers finite. Throws std::invalid_argument, naming the line, if it is none, or several.
+// Reads one gas, with columns in any order: pos and velo (or vel) must be there, and their numbers
+// must be finite. Throws std::invalid_argument, which names the line, if there is no gas, or
+// several.
 Frame read_xyz(std::istream& in);
 
 }  // namespace haff::campaign

@@ -21,8 +21,8 @@ namespace {
 
 using engine::Vector;
 
-// sin(2 pi x). The C library's differs in its last bit between machines, and would end up in the
-// trajectory. A quarter of a period by Taylor's series, to 1e-16.
+// sin(2 pi x), by Taylor's series in a quarter of a period, to 1e-16. The sine of the C library
+// differs in its last bit between machines, and the trajectory would, too.
 double sine_of_turns(double x) {
   constexpr double pi = 3.14159265358979323846;
   constexpr int terms = 11;  // (pi/2)^23 / 23! < 1e-17
@@ -54,7 +54,7 @@ double dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Energy per particle of all, or a product of two fields of velocities in its place.
+// The energy per particle; with two fields of velocities, their product in its place.
 double energy(const engine::State& state, const Masses& masses, const std::vector<Vector>& one,
               const std::vector<Vector>& other) {
   double sum = 0;
@@ -123,7 +123,7 @@ void set_two_temperatures(const schema::Start& start, engine::State& state) {
   if (!(energies[0] > 0 && energies[1] > 0))
     throw std::invalid_argument(
         "two temperatures: one of the two groups has too few particles; expected a larger N");
-  // Energy per particle of each; the sum over all is N.
+  // The energy per particle of each group; the energies of all particles add up to N.
   const double second = (count[0] + count[1]) / (count[0] * start.ratio + count[1]);
   const std::array<double, 2> wanted{second * start.ratio, second};
   std::array<double, 2> factor{};
@@ -135,8 +135,7 @@ void set_two_temperatures(const schema::Start& start, engine::State& state) {
 
 // ---- a state of the user's own ----------------------------------------------------------------
 
-// What lengths and masses may differ by from those of the job: digits that a file left out.
-// [relative]
+// Lengths and masses may differ from those of the job by digits that a file left out. [relative]
 constexpr double written_out = 1e-6;
 
 bool is_near(double value, double expected) {
@@ -147,7 +146,7 @@ void must_fit(bool condition, const std::string& what) {
   if (!condition) throw std::invalid_argument(what);
 }
 
-// Ids by the file's own, if they are those of this gas, or in its order: species 1 first.
+// The ids of the file if they are those of this gas, otherwise ids in its order, species 1 first.
 std::vector<std::uint32_t> ids_of(const Frame& frame,
                                   const std::optional<engine::Mixture>& mixture) {
   const std::size_t count = frame.position.size();

@@ -10,15 +10,16 @@
 
 namespace haff::campaign {
 
-// From the last state of the equilibration. Without momentum, with an energy per particle of 1, at
-// time 0. Of the starts that change velocities c, which have no momentum and an energy of 1 before:
+// The first state after the equilibration: at time 0, without momentum, with an energy per particle
+// of
+// 1. Two starts change the velocities c of the equilibrated gas:
 //
 //   shear wave        v = f c + A sin(2 pi waves y / L) e_x, less the mean of the sine; f is such
 //                     that the energy is 1
-//   two temperatures  each of the two groups has its mean velocity taken away, and is scaled to its
+//   two temperatures  the mean velocity of each group is taken away, and each is scaled to its
 //                     temperature: their ratio is exact, and neither flows
 //
-// Computed with + - * / and square roots alone: the same bits on every machine.
+// Only + - * / and square roots are used: the bits are the same on every machine.
 engine::State first_state(const engine::State& equilibrated, const schema::Start& start);
 
 // The state that a file holds as one of this job: its box is the job's, its momentum is taken away,

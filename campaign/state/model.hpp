@@ -16,7 +16,8 @@ engine::Model model_of(const schema::Job& job);
 // The mixture that the job's gas is, if it is one.
 std::optional<engine::Mixture> mixture_of(const schema::Job& job);
 
-// About which bodies can turn: spheres about any, disks about that across their plane.
+// The axes about which particles can turn: spheres about all three, disks about the one across
+// their plane.
 constexpr int axes_of_rotation(int d) {
   return d == 2 ? 1 : 3;
 }

@@ -48,7 +48,8 @@ std::optional<engine::State> stored_state(const schema::Reader& store, std::int6
   const auto checkpoint = store.checkpoint(job_id);
   if (!checkpoint) return std::nullopt;
   engine::State state = restore(*checkpoint, job);
-  // Read after the checkpoint: of a job that is being run there may be more by now, never less.
+  // The samples are read after the checkpoint: a job that is being run may have more by now, never
+  // fewer.
   if (const auto wrong = energy_contradiction(state, job, store.samples(job_id)))
     throw DamagedCheckpoint(*wrong);
   return state;
@@ -86,7 +87,7 @@ std::optional<engine::State> snapshot_state(const schema::Reader& store, std::in
   try {
     engine::State state = decode(snapshot->state);
     if (const auto wrong = contradiction(state, job)) throw DamagedCheckpoint(*wrong);
-    // Of a moment in time, tau is rounded.
+    // The tau of a moment in time is rounded.
     const double collisions = 0.5 * snapshot->tau * job.particles;
     if (state.collisions != snapshot->collisions ||
         std::abs(static_cast<double>(state.collisions) - collisions) > 1)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// From a checkpoint in the store to a state the engine may go on from.
+// From a checkpoint in the store to a state from which the engine may go on.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@ namespace haff::campaign {
 
 // The state of the job. Throws DamagedCheckpoint if it does not decode, is not a state of this
 // job, or cannot be one of hard spheres with no more energy than was put in: such a state is never
-// used. NewerCheckpoint if a newer program wrote it.
+// used. Throws NewerCheckpoint if a newer program wrote it.
 engine::State restore(const schema::Checkpoint& checkpoint, const schema::Job& job);
 
-// The newest state of a job in the store, held against its samples; nothing if there is none.
+// The newest state of a job in the store, compared with its samples; nothing if there is none.
 // Throws schema::Damage or what restore() throws, with the bare reason.
 std::optional<engine::State> stored_state(const schema::Reader& store, std::int64_t job_id,
                                           const schema::Job& job);

@@ -31,7 +31,7 @@ void start(const Folder& folder, const std::string& time, std::vector<std::strin
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
 }
 
-// Submits again, as a user does who has cancelled something, until nothing is left.
+// Submits again and again, as a user does after a task was cancelled, until no work is left.
 void go_on(const Folder& folder, const SlurmCluster& cluster, int seconds) {
   cluster.wait_until_empty(seconds);
   for (int round = 0; number(folder, "SELECT count(*) FROM jobs WHERE status <> 'done'") > 0;

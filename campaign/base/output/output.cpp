@@ -31,8 +31,8 @@ void write_out(std::string_view text) {
 }  // namespace
 
 void hold_standard_descriptors() {
-  // open() takes the lowest number that is free: that of the closed one. Of stdin and stdout the
-  // stand-in is opened the wrong way round, so that using it is still an error.
+  // open() takes the lowest free number, that of the closed one. What stands in for stdin is opened
+  // to write and for stdout to read, so that using it is still an error.
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(descriptor, F_GETFD) < 0) {
       const int flags = descriptor == STDOUT_FILENO ? O_RDONLY : O_WRONLY;

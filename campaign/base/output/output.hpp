@@ -13,9 +13,9 @@
 
 namespace haff::campaign {
 
-// Gives each of stdin, stdout and stderr that the parent closed something to stand for it, so that
-// no file of the program's own takes its number and is written over. Writing to a stdout that was
-// closed still fails. To be called first.
+// Opens a stand-in for each of stdin, stdout and stderr that the parent closed, so that no file of
+// the program's own takes its number and is written over. Writing to a stdout that was closed still
+// fails. To be called first.
 void hold_standard_descriptors();
 
 // Prints to stdout, with each line made printable (printable.hpp).
@@ -34,10 +34,10 @@ void complain(fmt::format_string<Values...> format, Values&&... values) {
   complain_lines(fmt::format(format, std::forward<Values>(values)...));
 }
 
-// Prints data for programs: as it is into a file or a pipe, made printable on a terminal.
+// Prints data for programs: unchanged into a file or a pipe, made printable on a terminal.
 void print_data(std::string_view text);
 
-// Prints what was made printable part by part, with the colours between.
+// Prints text that was made printable part by part, with colours between the parts.
 void print_as_is(std::string_view text);
 
 // A stream whose lines go through print_lines, each as soon as it is whole.
@@ -58,7 +58,7 @@ class PrintableStream : private std::streambuf, public std::ostream {
 // that nothing reads), with a message on stderr.
 int checked_output(int exit_code);
 
-// Writes to stderr, and never throws: when the terminal is gone, so is the text.
+// Writes to stderr, and never throws: when the terminal is gone, the text is lost.
 void write_to_stderr(std::string_view text) noexcept;
 
 }  // namespace haff::campaign

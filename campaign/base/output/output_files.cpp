@@ -11,7 +11,7 @@ namespace haff::campaign {
 
 void OutputFiles::add_missing(const std::filesystem::path& file, std::string reason) {
   const std::string name = file.string() + ": ";
-  if (reason.starts_with(name)) reason.erase(0, name.size());  // it is said once for many files
+  if (reason.starts_with(name)) reason.erase(0, name.size());  // one reason serves many files
   missing_[reason].push_back(file.string());
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Files written one after another: one that cannot be written does not keep the next from it.
+// Files that are written one after another, even if one of them cannot be written.
 #pragma once
 
 #include <exception>
@@ -14,8 +14,8 @@ namespace haff::campaign {
 
 class OutputFiles {
  public:
-  // Whether `write`, which is given the path, went to its end. An exception is kept as the reason
-  // why the file is missing.
+  // Whether `write`, which gets the path, succeeded. An exception is kept as the reason why the
+  // file is missing.
   template <class Write>
   bool attempt(const std::filesystem::path& file, Write&& write) {
     try {

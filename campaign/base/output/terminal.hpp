@@ -10,7 +10,7 @@ struct TerminalSize {
   int lines = 24;
 };
 
-// Of the terminal behind a descriptor; 80 x 24 where there is none, or it does not say.
+// The size of the terminal behind a descriptor; 80 x 24 where there is none, or it does not say.
 TerminalSize terminal_size(int descriptor);
 
 // Whether it is a terminal that shows colours: not if NO_COLOR is set (https://no-color.org) or

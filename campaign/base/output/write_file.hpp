@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A file that is there and whole, or not there at all.
+// Files that are whole, or not there at all.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace haff::campaign {
 
-// Writes the file, in place of an older one. Throws std::runtime_error that names the file and the
-// system's reason if it cannot be written to its end; what was written of it is then removed.
+// Writes the file, in place of an older one. If it cannot be written to its end, removes what was
+// written and throws std::runtime_error, which names the file and the system's reason.
 void write_file(const std::filesystem::path& file, std::string_view content);
 
 }  // namespace haff::campaign

@@ -16,13 +16,13 @@ inline double cpu_seconds(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
   return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
 }
 
-// Another process, as long as it is there; 0 if it is not.
+// That of another process as long as it is there; 0 if it is not.
 inline double cpu_seconds_of(pid_t process) {
   clockid_t clock{};
   return clock_getcpuclockid(process, &clock) == 0 ? cpu_seconds(clock) : 0;
 }
 
-// All child processes that have ended and were waited for.
+// That of all child processes that have ended and were waited for.
 inline double cpu_seconds_of_ended_children() {
   rusage usage{};
   getrusage(RUSAGE_CHILDREN, &usage);

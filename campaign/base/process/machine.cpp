@@ -17,8 +17,8 @@
 namespace haff::campaign {
 namespace {
 
-// A particle's record, its place in cells and calendar, and its share of a state being stored:
-// the least a run can do with, whatever the density. [bytes]
+// A particle's record, its place in cells and queue, and its share of a state that is being stored:
+// the least memory that a run needs at any density. [bytes]
 constexpr double least_bytes_per_particle = 200;
 
 // The processors of the affinity mask.
@@ -34,7 +34,7 @@ std::optional<int> processors_of(double microseconds, double period) {
   return static_cast<int>(std::ceil(microseconds / period));
 }
 
-// cpu.max of cgroup version 2: "150000 100000", or "max 100000" where there is none.
+// cpu.max of cgroup version 2: "150000 100000", or "max 100000" where there is no quota.
 std::optional<int> quota_2(const std::filesystem::path& group) {
   std::ifstream file(group / "cpu.max");
   double quota = 0, period = 0;
@@ -42,7 +42,7 @@ std::optional<int> quota_2(const std::filesystem::path& group) {
   return processors_of(quota, period);
 }
 
-// Of version 1; -1 where there is none.
+// The quota of version 1; -1 where there is none.
 std::optional<int> quota_1(const std::filesystem::path& group) {
   double quota = 0, period = 0;
   std::ifstream(group / "cpu.cfs_quota_us") >> quota;

@@ -7,14 +7,14 @@
 
 namespace haff::campaign {
 
-// That this process may use: of its affinity mask, and of the CPU quotas of its cgroups, rounded
-// up.
+// Processors that this process may use, by its affinity mask and by the CPU quotas of its cgroups,
+// rounded up.
 int processors();
 
 // Memory that this process and its workers may use: the machine's, or the limit of its cgroups.
 double memory_bytes();
 
-// The same, with what a particle of a running job takes of it at least.
+// The same, and how much of it a particle of a running job needs at least.
 schema::Memory machine_memory();
 
 }  // namespace haff::campaign

@@ -18,8 +18,8 @@ static_assert(std::atomic<std::int64_t>::is_always_lock_free, "written by a sign
 // Less than the coordinator's patience with a worker, which is killed after that. [ms]
 constexpr std::int64_t wait_after_stop = 2000;
 
-// A batch system signals every process of a task, and each passes it on to its children: what comes
-// so soon after the first signal is the same wish. [ms]
+// A batch system signals every process of a task, and each passes it on to its children: a signal
+// that comes so soon after the first one is the same request. [ms]
 constexpr std::int64_t same_wish = 700;
 
 std::int64_t monotonic_milliseconds() {

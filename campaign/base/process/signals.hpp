@@ -3,7 +3,7 @@
 // Signals that ask to stop: Ctrl-C (SIGINT), SIGTERM, a terminal that is gone (SIGHUP), and what
 // batch systems send before a time limit (SIGUSR1, SIGUSR2, SIGXCPU).
 //
-// They are only noted; the work looks often and stops in order.
+// They are only noted. The work looks for them often, and stops in order.
 #pragma once
 
 namespace haff::campaign {
@@ -17,8 +17,8 @@ void note_stop_signals();
 // The signal that asked to stop, or 0.
 int stop_signal();
 
-// How often one came: the second means "at once". One that comes within a second's part of the
-// first is that one, passed on by another process.
+// How many came: the second means "at once". A signal that comes a fraction of a second after the
+// first one counts as the first one, passed on by another process.
 int stop_signals();
 
 // Whether there is time to wait for another process to release the store: always before a stop

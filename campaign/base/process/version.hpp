@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Which program this is.
+// The version of this program.
 #pragma once
 
 #include <string>

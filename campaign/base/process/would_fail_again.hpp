@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What the error of a job says that would fail again in the same way, so that no command advises to
-// try it once more.
+// Words in the error of a job that would fail again in the same way. No command then advises to try
+// it once more.
 #pragma once
 
 #include <string_view>

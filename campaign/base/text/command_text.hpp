@@ -11,8 +11,8 @@ namespace haff::campaign {
 
 inline constexpr const char* default_store = "campaign.db";
 
-// A word as a POSIX shell must be given it: in single quotes where a character of it means
-// something to the shell.
+// A word as a POSIX shell needs it: in single quotes where one of its characters means something to
+// the shell.
 std::string quoted_word(std::string_view word);
 
 // The same for the name of a file, with ./ before one that would be taken for an option.

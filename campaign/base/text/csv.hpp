@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Comma-separated values as RFC 4180 has them, but with lines ended by a line feed alone, as Unix
-// tools expect; every reader of CSV takes both.
+// Comma-separated values by RFC 4180, except that lines end with a line feed alone, as Unix tools
+// expect; every reader of CSV takes both.
 //
 //   csv_row("tau_c", 0.8, std::optional<double>(), "a, b")  ->  tau_c,0.8...,,"a, b"
 #pragma once

@@ -15,8 +15,8 @@ std::string number_text(double value);
 // The number that is all of this text; nothing for anything else, or for what is not finite.
 std::optional<double> number_in(std::string_view text);
 
-// A value with the digits that its error leaves it, two of those that are uncertain: 57.49. Five
-// digits where the error is not known.
+// A value with the digits that its error permits, including two uncertain ones: 57.49. Five digits
+// where the error is not known.
 std::string value_text(double value, double error);
 
 // The same with the error: 57.49 ± 1.14.

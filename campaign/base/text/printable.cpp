@@ -9,8 +9,8 @@
 namespace haff::campaign {
 namespace {
 
-// The character that a text begins with: its code point and the bytes it takes; no bytes where the
-// text does not begin with well-formed UTF-8 (RFC 3629).
+// The first character of a text: its code point and how many bytes it takes, none where the text
+// does not begin with well-formed UTF-8 (RFC 3629).
 struct Character {
   std::uint32_t code = 0;
   std::size_t bytes = 0;

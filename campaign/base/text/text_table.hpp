@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Aligned tables for people: a head, rows, columns as wide as they need.
+// Aligned tables for people: a head, rows, and columns as wide as their text.
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-// Stands where a table has no value.
+// The text in place of a value that a table does not have.
 inline constexpr const char* no_value = "-";
 
 }  // namespace haff::campaign

@@ -25,7 +25,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// What came of one shard: it was merged, or it was refused.
+// The outcome for one shard: it was merged, or it was refused.
 struct Result {
   std::filesystem::path path;
   std::optional<MergeOutcome> outcome = {};

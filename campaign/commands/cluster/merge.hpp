@@ -14,8 +14,8 @@ struct MergeOptions {
   bool json = false;  // print for programs
 };
 
-// Merges each shard and prints what came of it. A shard that is refused is named, with the reason,
-// and costs the others nothing: the ExitCode then says so.
+// Merges each shard and prints the outcome. A shard that is refused is named, with the reason, and
+// the others are merged all the same: the ExitCode then says so.
 int merge(const MergeOptions& options);
 
 }  // namespace haff::campaign

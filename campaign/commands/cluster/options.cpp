@@ -90,7 +90,7 @@ CLI::App* add_submit(CLI::App& app, SubmitOptions& options) {
       ->type_name("DIR")
       ->capture_default_str();
   command->add_flag("--dry-run", options.dry_run, "Print scripts and sbatch lines; submit nothing");
-  command->add_option("--round", options.round)->group("");  // what the job after a round gives
+  command->add_option("--round", options.round)->group("");  // given by the job after a round
   command->add_option("SBATCH", cluster.sbatch_options, "After --: further options of sbatch")
       ->type_name("OPTION...");
   command->footer(examples(R"(  campaign submit --tasks 40 --cpus 8 --time 4h

@@ -36,7 +36,7 @@ const schema::Shard& shard_named(const std::vector<schema::Shard>& shards, const
                                       store.string(), word, names.empty() ? "none" : names));
 }
 
-// What the shard has stored so far need not be computed again.
+// Merges the shard first: what it has stored so far need not be computed again.
 struct Brought {
   std::optional<MergeOutcome> outcome = {};
   std::string error = {};  // why nothing came

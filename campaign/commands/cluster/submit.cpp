@@ -31,8 +31,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-// How long sbatch may refuse a round that the job after another submits, where no person is there
-// to try again.
+// How long sbatch may refuse a round that the job after another one submits: no user is there to
+// try again.
 constexpr std::chrono::seconds unattended_patience = 10min;
 
 std::chrono::seconds patience(const SubmitOptions& options) {
@@ -46,9 +46,9 @@ void remove_file(const fs::path& path) {
   fs::remove(path, ignored);
 }
 
-// Merges one shard and removes its file, which then holds nothing that the store does not. Whether
-// it brought anything. What goes wrong with the store itself, or with the disk, is not the shard's
-// fault: it stays out, and can come home later.
+// Merges one shard and removes its file, which then holds nothing that the store lacks. Returns
+// whether it brought anything. After an error of the store itself, or of the disk, the shard stays
+// out and can come home later.
 bool bring_home(schema::Store& store, const schema::Shard& shard) try {
   const MergeOutcome outcome = merge(store, shard.path);
   store.recall(shard.name);
@@ -75,8 +75,8 @@ bool bring_home(schema::Store& store, const schema::Shard& shard) try {
       command_text("status", options.store), round.round.merge_job, round.round.tasks_job));
 }
 
-// What became of the rounds before. Returns an ExitCode if one is at work, and there is nothing to
-// do now.
+// Reports on the rounds before. Returns an ExitCode if one is at work, and nothing is to be done
+// now.
 std::optional<int> look_after_rounds(schema::Store& store, const SubmitOptions& options) {
   const ClusterOptions& cluster = options.cluster;
   const bool is_user = options.round == 0;

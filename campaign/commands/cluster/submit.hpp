@@ -11,7 +11,7 @@ namespace haff::campaign {
 struct SubmitOptions {
   ClusterOptions cluster;
   bool dry_run = false;
-  // The round that is submitted, when the job after the round before does it; 0 from a user.
+  // The number of the round if the job after the round before submits it; 0 if a user does.
   int round = 0;
 };
 

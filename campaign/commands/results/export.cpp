@@ -26,7 +26,7 @@
 namespace haff::campaign {
 namespace {
 
-// A moment as a person writes it, and as it is stored. [relative]
+// A moment as a user types it may differ by this from the one that is stored. [relative]
 constexpr double rounding = 1e-9;
 
 bool is_at(double moment, double asked) {

@@ -21,7 +21,7 @@ struct ExportOptions {
 // Writes the job's last stored state, a snapshot or all of them as extended XYZ (state/
 // extended_xyz.hpp), with job_id, e, n, seed, tau and time in the second line. Throws
 // schema::NameError if there is no such job, no state of it or no such snapshot, DamagedCheckpoint
-// if it is bad.
+// if the state is damaged.
 int export_state(const std::filesystem::path& store, const ExportOptions& options,
                  std::ostream& out);
 

@@ -13,7 +13,7 @@ namespace haff::campaign {
 
 struct PlotOptions {
   Question question;
-  bool list = false;                              // what the store has to ask for
+  bool list = false;                              // lists what can be drawn
   bool json = false;                              // the list as JSON
   std::optional<std::filesystem::path> out = {};  // .svg, .png or .csv; nothing: text
 };

@@ -126,8 +126,8 @@ bool names(const std::string& sql, std::string_view name) {
   return std::search(sql.begin(), sql.end(), name.begin(), name.end(), is_same) != sql.end();
 }
 
-// An average would take a wrong row in without a trace: it is refused. Rows that are asked for one
-// by one are shown, as that is how one looks at what is wrong, with a word that they are.
+// An average over a wrong row would not show it, and is refused. Rows themselves are shown, with a
+// warning, since users must be able to look at what is wrong.
 void look_at_digests(const schema::Reader& store, const std::string& sql) {
   for (const Averaged& each : averaged)
     if (names(sql, each.view)) store.must_match_digests({each.part});

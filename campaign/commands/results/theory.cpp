@@ -21,7 +21,7 @@ namespace haff::campaign {
 namespace {
 
 std::vector<double> range(double from, double to, double step) {
-  // Half a step of rounding: both ends belong to it.
+  // Half a step of tolerance, so that rounding loses neither end.
   const auto last = static_cast<std::size_t>((to - from) / step + 1e-9);
   std::vector<double> values;
   for (std::size_t k = 0; k <= last; ++k) values.push_back(from + static_cast<double>(k) * step);

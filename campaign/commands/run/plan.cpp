@@ -51,7 +51,7 @@ std::string counts_text(const PlanOutcome& outcome) {
   return text;
 }
 
-// Of a run on this machine alone. Says nothing where it would repeat the CPU time.
+// The time of a run on this machine alone; empty where it would repeat the CPU time.
 std::string run_time_text(const RunTime& time) {
   const int workers = processors();
   if (workers == 1) return "";
@@ -91,7 +91,8 @@ void print_jobs(const PlanOutcome& outcome) {
   if (!outcome.memory_warning.empty()) say("Warning: {}.\n", outcome.memory_warning);
 }
 
-// What the boxes of the plan can hold by linear theory, a line for each gas, and warnings.
+// Which unstable modes the boxes of the plan can hold by linear theory, a line for each gas, and
+// warnings.
 void print_boxes(const PlanOutcome& outcome) {
   TextTable table({{"e"},
                    {"n"},
@@ -120,7 +121,7 @@ void print_boxes(const PlanOutcome& outcome) {
   for (const std::string& warning : outcome.box_warnings) say("Warning: {}.\n", warning);
 }
 
-// What the targets will take beyond the jobs above, as far as runs that are done tell.
+// What the targets will take beyond the jobs above, as far as finished runs tell.
 void print_targets(const std::vector<TargetProgress>& targets) {
   if (targets.empty()) return;
   say("\n{}\n", targets_table(targets));
@@ -154,7 +155,7 @@ std::vector<TargetProgress> preview(const schema::Reader& store, const std::vect
   return all;
 }
 
-// Writes to the store, unless only asked what that would do.
+// Writes to the store, unless it is only asked what that would do.
 PlanOutcome plan_into_store(std::vector<Planned>& jobs, const std::vector<schema::Target>& targets,
                             const PlanOptions& options) {
   if (!options.dry_run) {

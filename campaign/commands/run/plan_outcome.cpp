@@ -83,7 +83,7 @@ void add_boxes(const std::vector<Planned>& jobs, PlanOutcome& found) {
   }
 }
 
-// Jobs that the store is still to run further than the plan asks.
+// Jobs that the store still has to run further than the plan asks.
 std::size_t planned_longer(const std::vector<Planned>& jobs,
                            const std::vector<schema::JobRow>& known) {
   std::map<std::string, double> open;

@@ -17,7 +17,7 @@
 
 namespace haff::campaign {
 
-// Jobs that differ in nothing but what a table of a plan leaves out: seed, effects, observables.
+// Jobs that differ only in what the table of a plan leaves out: seed, effects, observables.
 struct PlanGroup {
   schema::Job job;  // any of them
   double tau_max = 0;
@@ -37,7 +37,7 @@ struct PlanOutcome {
   std::vector<PlanGroup> groups;  // equilibrations first, then by d, e, n, N, tau_max
   double cpu_seconds = 0;         // expected in all
   RunTime run_time;               // with a worker for each processor of this machine
-  std::string cpu_source;         // what the expectation rests on, in words
+  std::string cpu_source;         // where the expectation comes from, in words
   double memory_bytes = 0;        // of each worker
   double disk_bytes = 0;
   std::string memory_warning;     // empty: as many workers as processors fit
@@ -45,7 +45,7 @@ struct PlanOutcome {
   std::vector<std::string> box_warnings;
   std::vector<std::string> notes;
   std::vector<TargetProgress> targets;  // what they will take beyond the jobs above
-  // Of a grid that replaces the plan: what goes, ends earlier and stays.
+  // For a grid that replaces the plan: which jobs go, end earlier or stay.
   std::optional<schema::Revision> revision;
   std::string next;  // the command to type
 };

@@ -71,7 +71,7 @@ int conclusion(const schema::Summary& summary, const std::vector<TargetProgress>
   return any(targets, Verdict::unreachable) ? exit_failed : exit_complete;
 }
 
-// Why a run with a limit ended, where that is not plain from the tables.
+// Why a run with a limit ended, where the tables do not show it.
 void print_limits(const RunOptions& options, const RoundEnd& ended, int exit_code) {
   if (ended.seconds_needed && exit_code == exit_out_of_time)
     say("Jobs are left that --max-time is too short for: it must leave at least {} to store "
@@ -91,8 +91,8 @@ void close_log(schema::Store& store) {
       store.path().string());
 }
 
-// The file at the store's path is no longer the one that this run has written. What that one holds
-// can still be read by this process, as long as it has it open.
+// The file at the store's path is no longer the one that this run has written. This process can
+// still read the old file as long as it has it open.
 int rescue(schema::Store& store, const std::string& what) {
   const std::string name = store.path().string();
   std::filesystem::path saved;
@@ -169,8 +169,7 @@ void log_start(const RunOptions& options, EventLog& log) {
                           {"code_version", code_version()}});
 }
 
-// What is said at the very end, to the log and to the command of --on-finish, however the run
-// ended.
+// Reports at the very end to the log and to the command of --on-finish, however the run ended.
 void announce_end(const RunOptions& options, int exit_code, EventLog& log) {
   RunOutcome outcome{.exit_code = exit_code, .store = options.store};
   try {
@@ -178,7 +177,7 @@ void announce_end(const RunOptions& options, int exit_code, EventLog& log) {
     outcome.done = jobs[schema::Status::done];
     outcome.failed = jobs[schema::Status::failed];
     outcome.pending = jobs[schema::Status::pending];
-  } catch (const schema::StoreError&) {  // it has said so itself
+  } catch (const schema::StoreError&) {  // the run has reported it
   }
   log.add("run_ended", {{"exit_code", exit_code},
                         {"done", outcome.done},

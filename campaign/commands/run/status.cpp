@@ -107,7 +107,7 @@ std::string next_text(const Overview& overview) {
   return text;
 }
 
-// What jobs that are done took, beside what was expected for them.
+// The CPU time that finished jobs took, beside what was expected for them.
 std::string cpu_time_text(const Overview& overview) {
   const schema::Summary& summary = overview.summary;
   std::string text =

@@ -23,8 +23,8 @@ int status(const StatusOptions& options);
 // What a run says at its end: the table of tau_c, failures, the next command.
 void print_outcome(const schema::Reader& store);
 
-// The same as JSON: all that status has, the run's exit code, and how many pending jobs it has left
-// alone since they were not chosen.
+// The same as JSON: all that status has, the exit code of the run, and how many pending jobs it
+// left alone since they were not chosen.
 void print_outcome_json(const schema::Reader& store, int exit_code, std::int64_t not_chosen);
 
 }  // namespace haff::campaign

@@ -35,7 +35,7 @@ std::string time_of_day() {
   return fmt::format("{:%H:%M:%S}", fmt::localtime(std::time(nullptr)));
 }
 
-// Over what is there, so that nothing flickers.
+// Writes over what is there, so that nothing flickers.
 void draw(const std::string& text) {
   const TerminalSize size = terminal_size(STDOUT_FILENO);
   std::string picture = "\033[H";
@@ -46,7 +46,7 @@ void draw(const std::string& text) {
   write_all(picture);
 }
 
-// Leaves the screen of its own however the watch ends.
+// Leaves that screen however the watch ends.
 class Screen {
  public:
   explicit Screen(bool is_terminal) : is_terminal_(is_terminal) {

@@ -11,10 +11,10 @@
 namespace haff::campaign {
 
 // Prints what `make` returns, now and every so many seconds, until a signal asks to stop or stdout
-// cannot be written. A terminal shows the newest alone, on a screen of its own, as much of it as
-// fits, and keeps the last when it ends; a file or a pipe gets one after the other, with the time
-// above each unless it is data. A text that cannot be made (an exception) ends it. Returns an
-// ExitCode: 0.
+// cannot be written. A terminal shows as much of the newest text as fits, on a screen of its own,
+// and keeps the last one at the end. A file or a pipe gets all texts one after the other, with the
+// time above each unless it is data. A text that cannot be made (an exception) ends the watch.
+// Returns an ExitCode: 0.
 int watch(const std::function<std::string()>& make, double every_seconds, bool is_data);
 
 // The first lines of a text that fit on a screen of this size, each cut to its width; where lines

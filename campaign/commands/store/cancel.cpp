@@ -56,7 +56,7 @@ Result act(const CancelOptions& options) {
       result.freed = before - size_of(options.store);
     else
       result.freed.reset();
-  } catch (const schema::StoreError& error) {  // the jobs are gone all the same
+  } catch (const schema::StoreError& error) {  // the jobs are gone nevertheless
     result.trouble = error.what();
   }
   return result;

@@ -11,7 +11,7 @@ namespace haff::campaign {
 struct CancelOptions {
   std::filesystem::path store;
   std::string where;
-  bool with_rows = false;  // --delete: what has been computed goes, too
+  bool with_rows = false;  // --delete: computed rows go, too
   bool dry_run = false;    // show what would happen, change nothing
   bool json = false;       // print for programs
 };

@@ -26,9 +26,9 @@ using schema::Sample;
 
 using Texts = std::vector<std::string>;
 
-// tau_c is where an interpolated ln(T/T_Haff) reaches ln 2, and the C library's logarithms differ
-// in their last digits between two processors. The slope there is some 1/tau_c, so that 1e-16 of
-// the logarithm is 1e-15 of tau_c; far from both is this. [relative]
+// At tau_c the interpolated ln(T/T_Haff) reaches ln 2, and logarithms of the C library differ in
+// their last digits between two processors. The slope there is about 1/tau_c, so that 1e-16 in the
+// logarithm makes 1e-15 in tau_c, far below this tolerance. [relative]
 constexpr double digits_of_logarithms = 1e-10;
 
 void check_order(const std::vector<Sample>& samples, const JobRow& row, Texts& faults) {
@@ -92,11 +92,11 @@ void check_complete(const Reader& store, const JobRow& row, const std::vector<Sa
     faults.emplace_back("its results do not follow from its samples");
 }
 
-// Events in the past come from rounding, if at all: fewer than one in so many collisions.
+// Rounding alone puts events into the past: at most one in this many collisions.
 constexpr double past_events_per_collision = 1e-6;
 
-// Periods may be so much longer than expected in gases of a few particles. The engine itself knows
-// how long each was.
+// In gases of a few particles, periods may be longer than expected by this factor. The engine
+// itself knows how long each one was.
 constexpr double slowest_period = 1000;
 
 void check_invariants(const Reader& store, const JobRow& row, Texts& faults) {
@@ -121,7 +121,7 @@ void check_invariants(const Reader& store, const JobRow& row, Texts& faults) {
                                  seen->unresolved_collisions));
 }
 
-// Rows that are not as they were written are not looked at any further, but for samples.
+// Rows that are not as they were written are examined no further, except samples.
 struct Parts {
   std::set<schema::Part> wrong;
 
@@ -154,7 +154,7 @@ void check_state(const Reader& store, const JobRow& row, const Parts& parts, Job
       row.job.kind == schema::Kind::equilibration && row.status == schema::Status::done;
   if (row.starts_over) return;  // known, and to be computed again
   try {
-    // It is held against its samples, unless these are wrong.
+    // It is compared with its samples, unless these are wrong.
     const bool has_state = parts.are_wrong({schema::Part::samples})
                                ? is_restorable(store, row)
                                : stored_state(store, row.job_id, row.job).has_value();
@@ -168,7 +168,7 @@ void check_state(const Reader& store, const JobRow& row, const Parts& parts, Job
   }
 }
 
-// That they can be read is what is checked: as many values as their cells hold, finite points.
+// Checks that they can be read: as many values as the cells need, and finite points.
 void check_views(const Reader& store, const JobRow& row, const Parts& parts, Texts& faults) {
   if (parts.are_wrong({schema::Part::profiles, schema::Part::fields})) return;
   try {
@@ -181,7 +181,7 @@ void check_views(const Reader& store, const JobRow& row, const Parts& parts, Tex
   }
 }
 
-// That each is there up to the newest state, as the job's rows are, and could be exported.
+// Checks that all are there up to the newest state, like the job's rows, and can be exported.
 void check_snapshots(const Reader& store, const JobRow& row, const Parts& parts, Texts& faults) {
   if (row.job.snapshots_at.empty() || parts.are_wrong({schema::Part::snapshots})) return;
   std::int64_t at_tau = 0;

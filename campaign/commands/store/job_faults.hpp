@@ -20,8 +20,8 @@ struct JobFaults {
   bool empty() const { return !state && !newer && rows.empty(); }
 };
 
-// A job that is being worked on may be looked at too. What the system would not let us read is
-// thrown as schema::Unavailable: it is no fault of the job.
+// A job that is being worked on may be examined, too. A failure of the system to read is thrown as
+// schema::Unavailable: it is no fault of the job.
 JobFaults faults_of(const schema::Reader& store, const schema::JobRow& row);
 
 }  // namespace haff::campaign

@@ -62,7 +62,7 @@ bool is_finished(const JobRow& row) {
   return row.status == schema::Status::done || row.status == schema::Status::collapsed;
 }
 
-// So many of them, different ones each time: a few a day are all of them some day.
+// This many jobs, different ones each time, so that a few a day reach all of them in time.
 void keep_some(std::vector<JobRow>& rows, double percent) {
   const auto kept =
       static_cast<std::size_t>(std::ceil(percent / 100 * static_cast<double>(rows.size())));
@@ -94,7 +94,7 @@ std::vector<JobRow> chosen(const schema::Reader& store, const Choice& choice) {
 
 struct Outcome {
   bool json = false;
-  std::vector<std::string> notes = {};  // instead of being said, where JSON is asked for
+  std::vector<std::string> notes = {};  // kept for JSON, otherwise printed at once
   std::size_t same = 0, different = 0, not_computed = 0;
   std::size_t put_right = 0;    // of those that are different
   std::size_t last_digits = 0;  // values
@@ -122,8 +122,8 @@ void print(const std::string& job, const std::vector<Difference>& found, Outcome
   if (lines > most_lines_per_job) note(outcome, "{}: and {} more", job, lines - most_lines_per_job);
 }
 
-// The second computation may be the one that was disturbed: it is believed if a third, on its own
-// from the start, gives the same.
+// The second computation may be the one that was disturbed: it is believed if a third one, from the
+// start, gives the same.
 void put_right(schema::Store& store, const JobRow& row, const Recomputation& again,
                const std::string& job, Outcome& outcome) {
   const Recomputation third = recompute(store, row);
@@ -141,7 +141,7 @@ void put_right(schema::Store& store, const JobRow& row, const Recomputation& aga
        replaced.state ? ", and so is its state" : "");
 }
 
-// writer: where what differs is to be put right.
+// writer: the store in which differences are put right.
 void compare(const schema::Reader& store, const JobRow& row, schema::Store* writer,
              Outcome& outcome) {
   const std::string job = fmt::format("job {} ({})", row.job_id, describe(row.job));
@@ -167,7 +167,7 @@ void compare(const schema::Reader& store, const JobRow& row, schema::Store* writ
   }
 }
 
-// A part of all jobs would be another part the next time.
+// Another call would choose another part of the jobs.
 std::string which_again(const std::string& which) {
   return which.ends_with('%') ? "all" : which;
 }

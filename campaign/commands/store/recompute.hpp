@@ -11,8 +11,8 @@ namespace haff::campaign {
 // What is wrong with the word that says which jobs; empty if nothing is.
 std::string fault_of_choice(const std::string& word);
 
-// Says where they differ, or the same as JSON. `repair`: where a third computation gives what the
-// second did, puts it in the place of what the store has.
+// Prints where they differ, in words or as JSON. `repair`: where a third computation gives the same
+// as the second, it replaces what the store has.
 int recompute_jobs(const std::filesystem::path& path, const std::string& which, bool repair,
                    bool json);
 

@@ -84,7 +84,7 @@ class Repair {
     return left_ == 0 ? exit_complete : exit_failed;
   }
 
-  // Of indexes and statistics nothing is lost: they are made anew, and looked at again.
+  // Nothing is lost with indexes and statistics: they are made anew and checked again.
   std::optional<std::string> fault_of_file() {
     schema::Faults faults = store_.faults();
     if (faults.file.empty() && !faults.derived.empty()) {
@@ -108,9 +108,9 @@ class Repair {
     ++mended_;
   }
 
-  // A bit is turned back, if that makes the row right. Otherwise the physics of the job is known
-  // twice, in its columns and in its identity; what else the row says is taken, and its rows are
-  // computed again.
+  // A bit is turned back if that makes the row right. Otherwise the physics of the job is stored
+  // twice, in its columns and in its identity; the other columns are believed, and the job's rows
+  // are computed again.
   void mend_row_of_jobs(std::int64_t job_id) {
     const auto digests = store_.digests(job_id);
     if (contains(digests.without, Part::jobs)) store_.digest_again(job_id, Part::jobs);
@@ -233,7 +233,8 @@ Replaced replace(Store& store, const JobRow& row, const Recomputation& again,
   for (const Part part : computed_parts)
     replaced.rows += store.replace_rows(row.job_id, part, again.store, again.job_id);
   store.replace_rows(row.job_id, Part::invariants, again.store, again.job_id);
-  // Rows that came out different may be of a trajectory that was disturbed: then so is its state.
+  // Rows that came out different may belong to a disturbed trajectory, whose state is then wrong,
+  // too.
   replaced.state = has_damaged_state || (replaced.rows > 0 && has_other_state(store, row, again)) ||
                    std::ranges::any_of(differences(store, row, again), [](const auto& each) {
                      return each.part == Part::checkpoints;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// `campaign verify --repair`: what the digests or the checks of jobs find wrong is computed again,
-// and put right where it differs.
+// `campaign verify --repair`: rows and states that the digests or the checks of jobs find wrong are
+// computed again, and put right where they differ.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace haff::campaign {
 
-// Says each thing that it does, or all of them as JSON.
+// Prints each step, or all of them as JSON.
 int repair(const std::filesystem::path& path, bool json);
 
-// Puts what came out of a second computation in the place of the rows that differ from it, and of
-// the state if that differs or is damaged; what is left is digested as it is then.
+// Replaces the rows that differ from a second computation, and the state if it differs or is
+// damaged, by those of that computation. The job is digested as it is then.
 struct Replaced {
   std::int64_t rows = 0;
   bool state = false;

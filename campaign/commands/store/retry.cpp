@@ -26,9 +26,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Why the job cannot go on from its state, nor others start from it; or nothing. What is done and
-// sound stays, whichever physics version computed it: but for an equilibration, from which others
-// start.
+// Why the job cannot go on from its state, and others cannot start from it; or nothing. A job that
+// is done and sound stays, whichever physics version computed it, unless it is an equilibration,
+// from which others start.
 std::optional<std::string> damage_of(const schema::Reader& store, const schema::JobRow& row) {
   const bool must_have_state =
       row.job.kind == schema::Kind::equilibration && row.status == schema::Status::done;
@@ -66,8 +66,8 @@ std::string parts_text(const std::vector<schema::Part>& parts) {
 }
 
 // Rows that are not as they were written are computed again from the start. A row that came out
-// different when it was computed again lies beyond the state that its job goes on from, since rows
-// and states are written together: what lies there is dropped, and comes out of one computation.
+// different when it was computed again lies beyond the state from which its job goes on, since rows
+// and states are written together. All rows there are dropped, and one computation gives them anew.
 std::optional<Contradiction> contradiction_of(const schema::Reader& store,
                                               const schema::JobRow& row) {
   auto wrong = store.digests(row.job_id).wrong;
@@ -89,7 +89,7 @@ std::vector<Contradiction> contradictions(const schema::Reader& store) {
   for (const schema::JobRow& row : store.jobs()) {
     if (row.status == schema::Status::running || row.status == schema::Status::lent) continue;
     if (!contradiction_of(store, row)) continue;
-    // Seen twice, like damage.
+    // It must be seen twice, like damage.
     if (auto again = contradiction_of(schema::Reader(store.path()), row))
       found.push_back(*std::move(again));
   }
@@ -121,7 +121,7 @@ struct Damaged {
   std::string why;
 };
 
-// Those whose state is damaged. A single bad read condemns none: what is wrong must be so a second
+// The jobs whose state is damaged. One bad read is not enough: the state must be wrong a second
 // time, through a connection that has nothing in memory yet. An error of the system ends the
 // command before anything is changed.
 std::vector<Damaged> damaged_jobs(const schema::Reader& store) {

@@ -32,7 +32,7 @@ using nlohmann::ordered_json;
 using schema::JobRow;
 using schema::Reader;
 
-// What was found, apart by what helps against it.
+// What was found, sorted by what helps against it.
 struct Findings {
   std::vector<std::string> file;     // SQLite cannot read it, or finds it in disorder
   std::vector<std::string> derived;  // indexes and statistics: the tables have all of it
@@ -41,7 +41,7 @@ struct Findings {
   std::vector<std::string> rows;     // results that cannot be
   std::vector<std::string> tables;   // small tables that are not as they were written
   std::vector<std::string> newer;    // of a newer program
-  std::vector<std::string> unknown;  // what the system would not let us read
+  std::vector<std::string> unknown;  // what the system could not read
 
   bool lacks_log = false;            // a copy made while a run was on
   std::int64_t without_digests = 0;  // jobs: no fault, but less is known of them

@@ -63,7 +63,7 @@ class Inventory {
     return found;
   }
 
-  // Who or what has the job, in words; nothing if it is free.
+  // What holds the job, in words; nothing if it is free.
   std::optional<std::string> holder(const JobRow& row) const {
     if (row.status == Status::running) {
       const auto owner = owners_.find(row.job_id);

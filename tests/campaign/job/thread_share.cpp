@@ -82,7 +82,7 @@ TEST_CASE("thread share: a job that counts collisions has no use for several") {
   CHECK(threads_for(counting, {.processors = 8}, 1) == 1);
 }
 
-TEST_CASE("thread share: who asks for a number gets it") {
+TEST_CASE("thread share: a number that the user asks for is kept") {
   CHECK(threads_for(job(1000), {.threads = 3, .processors = 8}, 100) == 3);
 }
 

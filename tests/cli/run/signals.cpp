@@ -104,7 +104,7 @@ TEST_CASE("signals: a short --max-time stores something, or says what it needs")
     for (double seconds = 0.3; reached() == before && seconds < 60; seconds *= 2) {
       const std::string limit = std::to_string(seconds) + "s";
       CHECK(campaign(folder, {"run", "--workers", "1", "--max-time", limit}).exit_code == 3);
-      // Whoever has spent CPU time has stored something.
+      // A run that has spent CPU time has stored something.
       CHECK((number(folder, "SELECT total(cpu_seconds) FROM jobs") > 0) == (reached() > 0));
     }
     CHECK(reached() > before);

@@ -12,7 +12,7 @@
 
 using namespace haff::schema;
 
-TEST_CASE("a backup holds what the store's log holds, and its jobs are nobody's") {
+TEST_CASE("a backup holds what the store's log holds, and no process holds its jobs") {
   const TemporaryFolder folder;
   Store store = Store::create(folder / "a.db");
   store.open_log();

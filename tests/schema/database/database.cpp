@@ -24,7 +24,7 @@ std::string contents(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// Somebody else's connection: plain SQLite.
+// A connection of another program, by plain SQLite.
 SQLite::Database plain(const std::filesystem::path& path) {
   return {path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE};
 }
@@ -370,7 +370,7 @@ TEST_CASE("the log is copied by one, begins anew, and is gone when the last writ
   CHECK(std::filesystem::file_size(log) == static_cast<std::uintmax_t>(copied.bytes));
   {
     const Store other = Store::open(folder / "a.db");
-    CHECK_FALSE(store.close_log({}));  // it stays as long as somebody else is there
+    CHECK_FALSE(store.close_log({}));  // the log stays as long as another process uses it
   }
   CHECK(store.close_log({}));
   CHECK_FALSE(std::filesystem::exists(log));

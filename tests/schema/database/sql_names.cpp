@@ -12,7 +12,7 @@ TEST_CASE("names are words outside of quotes, numbers and functions are none") {
         std::vector<std::string>{"a2", "roughness.beta", "AND", "law"});
   CHECK(names_in("") == std::vector<std::string>{});
   CHECK(names_in("'it''s N' = \"N\" || .5") == std::vector<std::string>{});
-  CHECK(names_in("'N") == std::vector<std::string>{});  // a quote that nobody closes
+  CHECK(names_in("'N") == std::vector<std::string>{});  // a quote that is not closed
 }
 
 TEST_CASE("names are replaced, all else stays as it is") {

@@ -91,7 +91,7 @@ TEST_CASE("what takes longest is claimed first") {
   for (const double e : {0.8, 0.9, 0.7}) CHECK(store.claim(me, "test")->job.e == e);
 }
 
-TEST_CASE("a claim tells where the job stands and marks who holds it") {
+TEST_CASE("a claim tells where the job stands and marks its holder") {
   Store store = Store::in_memory();
   auto jobs = plan({cooling()});
   jobs[1].checkpoint_every = 20;
