@@ -13,7 +13,7 @@
 
 namespace haff::campaign {
 
-// A quantity in one series: what chance leaves open.
+// A quantity in one series with its statistical error.
 struct Statistics {
   Quantity quantity;
   schema::Job job;
@@ -30,7 +30,7 @@ struct Statistics {
   std::optional<analysis::Slope> slope = {};  // of scatter; -1/2 for independent realizations
 };
 
-// A cause that may move a quantity, and of which the store says nothing.
+// A cause that may shift a quantity, and about which the store says nothing.
 struct UnknownBias {
   SystematicEffect cause;
   Quantity quantity;
@@ -51,9 +51,8 @@ struct Assessment {
   std::vector<NotMeasured> absent;
 };
 
-// Of the usual quantities, of those that have a target, and of those asked for besides. The
-// interval of a series with a target is the one that its runs were added for, from the pilots'
-// scatter.
+// For the usual quantities, those that have a target, and those that are asked for. A series with a
+// target has the interval for which its runs were added, from the scatter of the pilot runs.
 Assessment assess(const std::vector<FinishedSeries>& all,
                   const std::vector<schema::Target>& targets = {},
                   const std::vector<Quantity>& asked = {});

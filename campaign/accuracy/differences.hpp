@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Differences between gases that started from the same states, seed by seed: those of different e,
-// or with and without an effect that equilibrium does not know. What chance does to both alike is
-// not in the error of such a difference, which is therefore often the smaller one, at no cost.
+// or with and without an effect that leaves equilibrium as it is. Fluctuations that both share
+// cancel in such a difference, so that its error is often smaller at no cost.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct PairedDifference {
   std::size_t pairs = 0;   // seeds that both have, two at least
   double value = 0;        // mean of ours less theirs
   double error = 0;        // standard error of value
-  double independent = 0;  // what it would be of as many seeds that have nothing in common
+  double independent = 0;  // what it would be with as many independent seeds
 };
 
 // Of values by seed; nothing of fewer than two seeds that both have.

@@ -16,7 +16,7 @@ double finite_size_bound(const Assessment& assessment, const Statistics& statist
   return shift == nullptr ? 0 : std::max(finite_size_error(assessment, statistics), shift->error);
 }
 
-// One size of the gas, for a target, of which finite size has taken `bias`.
+// One size of the gas, for a target of which finite size uses up the part `bias`.
 std::optional<Offer> offer(const Statistics& each, double target, double bias) {
   if (bias >= target || !(each.deviation > 0)) return std::nullopt;
   const auto realizations =

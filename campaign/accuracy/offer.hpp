@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a wanted error would cost: the cheapest gas, finite size included.
+// The cost of a wanted error: the cheapest gas, with the error of finite size included.
 #pragma once
 
 #include <optional>
@@ -31,8 +31,8 @@ struct Offer {
 std::optional<Offer> cheapest(const Assessment& assessment, const std::string& gas,
                               const Quantity& quantity, double target);
 
-// Whether a smaller gas might do for less, and is not offered for the sole reason that its shift is
-// not known well enough: more runs of the largest gas may tell.
+// Whether a smaller gas might cost less, and is not offered only because its shift is too
+// uncertain: more runs of the largest gas may help.
 bool smaller_might_do(const Assessment& assessment, const std::string& gas,
                       const Quantity& quantity, double target);
 

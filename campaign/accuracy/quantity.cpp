@@ -23,14 +23,14 @@ constexpr double rounding = 1e-9;
 // Where a_2 of 0.8 <= e < 1 is near its plateau, before velocity correlations draw it back. [tau]
 constexpr double plateau_from = 5, plateau_to = 15;
 
-// gamma is averaged over so much to either side. [tau]
+// gamma is averaged over this much to either side. [tau]
 constexpr double decay_reach = 2;
 
 // G_parallel: a distance beyond the cells of its mesh and within a small box. [sigma]
 constexpr double correlation_r = 5;
 
-// Blocks of so many correlation times, as seen with these very blocks, leave an error at most a
-// tenth too small.
+// With blocks of this many correlation times, measured with these very blocks, the error is at most
+// a tenth too small.
 constexpr double long_enough = 8;
 
 using Samples = std::vector<schema::Sample>;

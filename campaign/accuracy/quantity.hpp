@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What is asked of a cooling gas with an error: one number from each realization.
+// A quantity of a cooling gas: one number from each realization, so that it has an error.
 #pragma once
 
 #include <optional>
@@ -36,8 +36,8 @@ std::optional<Measure> measure_named(const std::string& name);
 std::string describe(const Quantity& quantity);  // "a2, tau 5 to 15"
 Quantity middle_half(const Quantity& quantity);  // of its window
 
-// Its value in one realization, of which only every so manieth sample is looked at; nothing if the
-// run did not reach or measure it.
+// Its value in one realization, from every k-th sample only; nothing if the run did not reach or
+// measure it.
 std::optional<double> value_of(const Quantity& quantity, const schema::Job& job,
                                const FinishedRun& run, std::size_t every = 1);
 
@@ -66,8 +66,8 @@ double cpu_seconds(const Quantity& quantity, const FinishedRun& run);
 // Of the realizations that have one.
 std::vector<double> values_of(const Quantity& quantity, const FinishedSeries& series);
 
-// Runs that ended before their tau_c. Those that did not are the early ones, and their mean is no
-// tau_c of the gas.
+// The number of runs that ended before their tau_c. The others are the early ones, whose mean is
+// not the tau_c of the gas.
 std::size_t unfinished(const Quantity& quantity, const FinishedSeries& series);
 
 }  // namespace haff::campaign

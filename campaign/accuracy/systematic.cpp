@@ -26,7 +26,7 @@ using analysis::Estimate;
 // Every second and every fifth sample.
 constexpr std::size_t thinned[] = {2, 5};
 
-// A condition that series of one gas may differ in, and how good it is: the more the better.
+// A condition in which series of one gas may differ, and how good it is: more is better.
 struct Condition {
   SystematicEffect cause;
   void (*neutralize)(schema::Job&);
@@ -86,7 +86,7 @@ void add_condition_shifts(const Condition& condition, const Quantity& quantity,
   }
 }
 
-// Differences within each realization, so that what chance does to both is not in their error.
+// Differences within each realization, so that fluctuations that both share cancel.
 void add_paired_shift(const Quantity& quantity, const FinishedSeries& series,
                       SystematicEffect cause, const std::string& change,
                       const std::function<std::optional<double>(const FinishedRun&)>& changed,
@@ -154,8 +154,9 @@ void add_mesh_shift(Quantity quantity, const FinishedSeries& series,
                     .error = shift.standard_error});
 }
 
-// Of those with the most particles in all realizations together the noise is least; of equals the
-// largest gas is nearest to an infinite one. Nothing if none has two values, or each run its tau_c.
+// The series with the most particles in all realizations together, which has the least noise; among
+// equals the largest gas, which is nearest to an infinite one. Nothing if none has two values, or
+// if not every run has its tau_c.
 const FinishedSeries* quietest(const Quantity& quantity,
                                const std::vector<const FinishedSeries*>& gas) {
   const FinishedSeries* best = nullptr;
@@ -173,7 +174,7 @@ const FinishedSeries* quietest(const Quantity& quantity,
   return best;
 }
 
-// Those whose stored states are nearest to the quantity's tau.
+// The series whose stored states are nearest to the quantity's tau.
 std::vector<const FinishedSeries*> nearest_meshed(const Quantity& quantity,
                                                   std::vector<const FinishedSeries*> gas) {
   std::erase_if(gas, [](const FinishedSeries* series) { return !series->runs.front().mesh; });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What moves the mean of a quantity, whatever the number of realizations, as far as the series of a
-// gas tell.
+// Causes that shift the mean of a quantity, whatever the number of realizations, as far as the
+// series of a gas show them.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace haff::campaign {
 
-// What moves a mean, whatever the number of realizations.
+// A cause that shifts a mean, whatever the number of realizations.
 enum class SystematicEffect { finite_size, equilibration, sampling, averaging, mesh };
 
 std::string name(SystematicEffect cause);

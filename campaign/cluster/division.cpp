@@ -16,7 +16,7 @@ using schema::JobRow;
 using schema::Kind;
 using schema::Status;
 
-// Collisions of one core in a second, where no forecast is known: it only has to compare jobs.
+// Collisions of one core in a second, for jobs without a forecast; only ratios count.
 constexpr double usual_collisions_per_second = 1e6;
 
 // A piece of work that cannot be parted: a cooling job, or an equilibration that no pending cooling
@@ -80,7 +80,7 @@ class Loader {
   }
 
  private:
-  // What threads bring depends on the box and the number of particles in it.
+  // The gain from threads depends on the box and on the number of particles in it.
   static void note_long(const Piece& piece, std::vector<LongJob>& long_jobs) {
     const schema::Job& job = piece.job->job;
     const auto same = std::ranges::find_if(long_jobs, [&](const LongJob& other) {

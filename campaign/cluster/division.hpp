@@ -31,8 +31,8 @@ struct Share {
       0;  // of one cooling job with the equilibration that it waits for [s]
   std::vector<LongJob> long_jobs;  // the longest of each gas
 
-  // The time that so many workers need at least: the whole load divided evenly, or the longest
-  // job on as many threads as help it, whichever is longer. [s]
+  // The least time for this many workers: the whole load divided evenly, or the longest job on as
+  // many threads as help it, whichever is longer. [s]
   double makespan(int workers) const;
 };
 

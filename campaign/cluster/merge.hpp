@@ -2,9 +2,9 @@
 
 // `campaign merge` and `campaign recall`: what shards have computed comes home.
 //
-// Where a job is at each moment: lent, it is in its shard alone, and the store that lent it keeps
-// what it had; merged, its rows and its newest state are in both. Merging copies and compares, and
-// takes nothing away from a shard.
+// A job that is lent is worked on in its shard alone, and the store that lent it keeps what it had.
+// After a merge its rows and its newest state are in both. Merging copies and compares, and takes
+// nothing away from a shard.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ struct MergeOutcome {
   std::int64_t rows = 0;      // that were new
 };
 
-// Brings home what this shard has, a transaction a job: it may be killed, repeated and overlap with
-// a run. Holds at most one state in memory. Throws StoreError if the file is not a shard of this
-// store's campaign, Damage if the shard is damaged or contradicts what is known; what was brought
-// home before stays.
+// Brings home what this shard has, in one transaction for each job: it may be killed, repeated, and
+// run at the same time as a run. Holds at most one state in memory. Throws StoreError if the file
+// is not a shard of this store's campaign, Damage if the shard is damaged or contradicts what is
+// known; what was brought home before stays.
 MergeOutcome merge(schema::Store& store, const std::filesystem::path& shard);
 
 }  // namespace haff::campaign

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Where the shards of a store are, and how far.
+// Where the shards of a store are, and how far each one is.
 #pragma once
 
 #include <optional>

@@ -28,7 +28,7 @@ using nlohmann::ordered_json;
 // A shard is copied home within this part of a task's time, and these bounds. [s]
 constexpr double reserved_share = 0.05;
 constexpr double least_reserve = 30, most_reserve = 300;
-// Of a very short task no more than this is reserved.
+// At most this part of a very short task is reserved.
 constexpr double most_reserved_share = 0.25;
 
 // D-HH:MM:SS, as Slurm reads it.
@@ -56,7 +56,7 @@ std::vector<std::string> with_options(std::vector<std::string> words, const Clus
   return words;
 }
 
-// The file name pattern of sbatch takes % for itself.
+// In the file name patterns of sbatch, % has a meaning of its own.
 std::string pattern(const fs::path& path) {
   std::string text;
   for (const char c : path.string()) text += c == '%' ? std::string("%%") : std::string(1, c);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What is said to Slurm, and what it answers.
+// The words that are said to Slurm, and its answers.
 //
 // A round of `campaign submit` is an array of tasks, one for each shard, and a job that begins when
-// all of them have ended, however that was (--dependency=afterany): it merges the shards and, if
+// all of them have ended, in whatever way (--dependency=afterany): it merges the shards and, if
 // work is left, submits the next round.
 #pragma once
 
@@ -40,7 +40,7 @@ double reserve(const ClusterOptions& options);
 // The path of this program, which a task on another machine starts as well.
 std::string this_program();
 
-// The words as a shell must be given them.
+// The words as a shell needs them.
 std::string shell_line(const std::vector<std::string>& words);
 
 // What the user types to submit with these options.

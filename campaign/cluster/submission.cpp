@@ -24,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-// The number that sbatch gives a job: "123", or "123;cluster". A controller that is busy or just
-// restarts refuses what it takes a minute later.
+// The number that sbatch gives a job: "123", or "123;cluster". A controller that is busy, or is
+// just restarting, may refuse a job that it accepts a minute later.
 std::string submitted(const std::vector<std::string>& words, std::chrono::seconds patience) {
   const auto until = std::chrono::steady_clock::now() + patience;
   for (std::chrono::seconds pause = 1s;; pause = std::min(2 * pause, std::chrono::seconds(60))) {

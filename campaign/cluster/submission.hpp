@@ -2,10 +2,10 @@
 
 // Rounds of `campaign submit`, from sbatch to the day when their shards are home.
 //
-// Each step leaves a record before it does what cannot be undone, so that whatever is cut off, a
-// command or the job that merges, the next `campaign submit` knows what is out and goes on from
-// there: shards that no task will work on any more come home, tasks that have lost the job that is
-// to merge them get another.
+// Each step leaves a record before it does what cannot be undone. Wherever a command, or the job
+// that merges, is cut off, the next `campaign submit` therefore knows what is out and goes on from
+// there: shards that no task will work on any more come home, and tasks that have lost the job that
+// merges them get another one.
 #pragma once
 
 #include <chrono>
@@ -40,13 +40,13 @@ struct OpenRound {
   bool has_merge = false;  // the same, other than the job that asks
 };
 
-// All of them, the oldest first. `ended`: the round whose tasks have all ended, if this process is
-// the job after it; Slurm is asked about the others only.
+// All of them, the oldest first. `ended` is the round whose tasks have all ended, if this process
+// is the job after it; Slurm is only asked about the others.
 std::vector<OpenRound> open_rounds(const schema::Reader& store, const std::filesystem::path& folder,
                                    std::optional<int> ended);
 
-// Writes the scripts and gives the tasks to sbatch, then the job after them. If either is refused
-// for so long, nothing stays in the queue, and std::runtime_error is thrown.
+// Writes the scripts and gives the tasks to sbatch, then the job after them. If one of the two is
+// refused for so long, nothing stays in the queue, and std::runtime_error is thrown.
 void enqueue(const ClusterOptions& options, Round& round, std::chrono::seconds patience);
 
 // The second part alone, for tasks that have lost that job.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Another program: started, fed with nothing, its output read.
+// Another program, which gets no input and whose output is read.
 #pragma once
 
 #include <filesystem>

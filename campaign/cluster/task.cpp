@@ -37,9 +37,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto look_every = 100ms;
 
-// A folder of the task's own on a disk of its node, gone with the task. A task that is killed
-// cannot remove its folder; the next one on this node does. Which folders are left over is told by
-// a lock on a file in each of them, which the kernel lifts when a task dies, however it dies.
+// A folder of the task's own on a disk of its node, removed at its end. A task that is killed
+// cannot remove its folder: the next one on this node does. A lock on a file in each folder, which
+// the kernel lifts when a task dies in whatever way, tells which folders are left over.
 class Scratch {
  public:
   Scratch() {
@@ -108,7 +108,7 @@ class Scratch {
   int lock_ = -1;
 };
 
-// This process, so that no two hosts or times give the same.
+// A name of this process, unlike that of any other on any host at any time.
 std::string signature() {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
@@ -116,8 +116,8 @@ std::string signature() {
                      std::chrono::system_clock::now().time_since_epoch().count());
 }
 
-// Says which task works on a shard. A task that was requeued may still live out of sight,
-// on a node that was cut off: the newer one takes over, and the older one must not put back less.
+// Says which task works on a shard. A task that was requeued may still live on a node that was cut
+// off: the newer one takes over, and the older one must not put an older state back.
 class Claimed {
  public:
   explicit Claimed(const fs::path& shard) : file_(shard.string() + ".task"), mine_(signature()) {
@@ -132,8 +132,8 @@ class Claimed {
   Claimed(const Claimed&) = delete;
   Claimed& operator=(const Claimed&) = delete;
 
-  // The file is gone when another task has ended meanwhile, or a merge. What cannot be looked at
-  // just now says nothing.
+  // The file is gone when another task, or a merge, has ended meanwhile. An error of the system
+  // says nothing about it.
   bool still() const {
     std::error_code unknown;
     if (!fs::exists(file_, unknown)) return static_cast<bool>(unknown);
@@ -148,8 +148,8 @@ class Claimed {
   std::string mine_;
 };
 
-// The shard as it is at this moment, in place of the one in the user's folder; unless another task
-// has claimed that one meanwhile. Whether it was put back.
+// Puts the shard, as it is at this moment, in place of the one in the user's folder, unless another
+// task has claimed that one meanwhile. Returns whether it was put back.
 bool put_back(const fs::path& working, const fs::path& shard, const Claimed& claimed) {
   const fs::path part = fmt::format("{}.part-{}", shard.string(), getpid());
   std::error_code ignored;
@@ -177,8 +177,8 @@ void copy_to_node(const fs::path& shard, const fs::path& working) {
         shard.string(), working.parent_path().string(), error.message()));
 }
 
-// A shard that an older program has written is brought forward. No one else knows of the copy, so
-// that no process holds the leases in it.
+// Brings a shard of an older program forward. No other process knows of the copy, so that none
+// holds the leases in it.
 void bring_forward(const fs::path& working) {
   std::vector<schema::Lease> leases;
   for (const schema::RunningJob& job : schema::Reader(working).running())
@@ -205,7 +205,7 @@ pid_t start_run(const fs::path& store, const TaskOptions& options) {
   if (id > 0) return id;
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(1);
-  // What it prints at its end speaks of the copy, which is gone by then.
+  // Its last lines on stdout are about the copy, which is gone by then.
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
   execv("/proc/self/exe", arguments.data());

@@ -5,8 +5,8 @@
 // The shard in the user's folder may lie on a network file system, where SQLite's locks and shared
 // memory cannot be trusted. So it is never opened for writing there: the task copies it to a disk
 // of its node, runs it there like any store, and puts it back by copying and renaming, from time to
-// time and at the end. What is in the user's folder is always one whole shard; a node that dies
-// costs what was done since it was last put back.
+// time and at the end. The user's folder always holds one whole shard; when a node dies, the work
+// since the shard was last put back is lost.
 #pragma once
 
 #include <filesystem>

@@ -33,14 +33,14 @@ Observations observed(const schema::Reader& store, const Vocabulary& words, cons
   return {};
 }
 
-// The order of a_2 ... a_6, whose errors are known beforehand; 0 for all else.
+// The order of a_2 ... a_6, whose errors are known beforehand; 0 for all other columns.
 int laguerre_order(const Topic& topic) {
   const std::string& y = topic.y;
   const bool is_one = y.size() == 2 && y[0] == 'a' && y[1] >= '2' && y[1] <= '6';
   return is_one && topic.kind == Topic::Kind::series ? y[1] - '0' : 0;
 }
 
-// Where all have the same, it is that, without rounding.
+// The mean; where all values are equal it is that value, without rounding.
 double mean_x(const BySeed& readings) {
   const double first = readings.begin()->second.x;
   if (std::ranges::all_of(readings, [&](const auto& each) { return each.second.x == first; }))
@@ -76,7 +76,8 @@ std::vector<GasCurve> means(const Observations& observations, int laguerre) {
 
 // ---- differences ------------------------------------------------------------------------------
 
-// What others are compared with: gases whose parameter is this, or that lack this effect.
+// The gases that others are compared with: their parameter has this value, or they lack this
+// effect.
 struct Reference {
   std::string parameter, value, words;
   std::string effect = {};  // that they lack; empty: none
@@ -108,7 +109,7 @@ std::map<std::uint64_t, double> values(const BySeed& readings) {
   return result;
 }
 
-// Without points where no two seeds start from the same states.
+// There are no points where no two seeds start from the same states.
 GasCurve difference_of(const Observation& ours, const Observation& theirs) {
   GasCurve curve{.scene = ours.scene,
                  .gases = {{.job = ours.scene.job, .reference = theirs.scene.job}}};

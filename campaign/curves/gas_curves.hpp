@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// From what realizations have to the curves of gases: means or paired differences, with errors.
+// From realizations to the curves of gases: means or paired differences, with errors.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ struct CurvePoint {
   std::size_t gas = 0;  // of the curve's gases
 };
 
-// Of one gas, against what changes along its runs; or of gases that differ in nothing but what the
-// variable is made of, a point each.
+// A curve of one gas along its runs; or of several gases, a point each, that differ only in the
+// parameters that the variable is made of.
 struct GasCurve {
   Scene scene;  // without parameters of which the variable is made
   std::vector<Gas> gases = {};

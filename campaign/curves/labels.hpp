@@ -9,14 +9,14 @@
 
 namespace haff::campaign {
 
-// The symbol of the field's papers, "{/:Italic a}_2" for a2; a name or expression without one as it
-// is, none of it read as markup.
+// The usual symbol, "{/:Italic a}_2" for a2. A name or expression without a symbol stays as it is,
+// and none of it is read as markup.
 std::string symbol(std::string_view name);
 
 // The symbol with the unit.
 std::string axis_label(std::string_view name);
 
-// Text that may come from a store or a user, as enhanced text that shows just that.
+// Text that may come from a store or a user, as enhanced text that shows it unchanged.
 std::string literal(std::string_view text);
 
 }  // namespace haff::campaign

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What the finished runs of a store have of something, realization by realization: what is averaged
-// into a curve, or subtracted seed by seed before.
+// Values of the finished runs of a store, realization by realization, which are averaged into a
+// curve, or are first subtracted seed by seed.
 #pragma once
 
 #include <cstdint>

@@ -49,7 +49,7 @@ bool is_of_parameters(const std::string& sql, const Vocabulary& words) {
   });
 }
 
-// Every name of an expression is a column or a parameter; other errors in it are SQLite's to tell.
+// Checks that every name in an expression is a column or a parameter; SQLite finds other errors.
 void check_expression(const std::string& sql, const Vocabulary& words,
                       const std::vector<std::string>& known) {
   const auto names = schema::names_in(sql);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A question about a store that a plot answers: this against that, a curve for each such gas.
+// A question about a store that a plot answers: this against that, with a curve for each gas.
 #pragma once
 
 #include <optional>
@@ -27,13 +27,13 @@ struct Question {
   bool log_x = false, log_y = false;
   bool theory = false;
   std::size_t theory_up_to = 1000;  // gases; of more, theory would only be in the way
-  // Subtract, seed by seed, what the gas has whose parameter is this instead: {"e", "0.9"}; for
+  // Subtract, seed by seed, the gas whose parameter has this value instead: {"e", "0.9"}; with
   // {"roughness", "none"} the gas without this effect.
   std::optional<std::pair<std::string, std::string>> difference = {};
 };
 
-// A question that makes no sense in any store, or names what this one does not know. The message
-// says what there is.
+// A question that makes no sense in any store, or that uses a name which this store does not know.
+// The message lists the known ones.
 struct QuestionError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a curve is of: a gas with its parameters by name, as a user asks for them.
+// The gas that a curve shows: its parameters by name, as a user asks for them.
 //
 //   d, e, n, N, equilibrate, sample_every     as in a grid
 //   roughness.beta, thermostat.rate, ...      of an effect, where the gas has it

@@ -40,8 +40,8 @@ TheoryTable table(std::vector<std::string> columns, Values values,
   return result;
 }
 
-// One quantity of the direct simulation with its error at each tau: from the table where it has
-// this gas, computed otherwise.
+// One quantity of the direct simulation with its error at each tau: from the table where the table
+// has this gas, otherwise computed.
 std::vector<analysis::TabulatedValue> direct(
     const TheoryPoint& at, Values tau, std::string_view tabulated_name,
     const std::function<analysis::Estimate(const analysis::DirectPoint&)>& of) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The theory curves that the program knows, by name: what they are functions of, which columns they
-// have, and how they are computed. All of it is in analysis/; this is the list.
+// The list of the theory curves by name: their variables, their columns, and the functions of
+// analysis/ that compute them.
 #pragma once
 
 #include <optional>

@@ -56,7 +56,7 @@ TheoryPoint point_of(const schema::Job& job) {
   return at;
 }
 
-// What a theory has of these values; nothing where it does not hold.
+// The values of a theory; nothing where it does not hold.
 std::vector<TheoryLine> lines_of(std::string_view curve_name, const TheoryPoint& at,
                                  std::span<const double> values) try {
   const TheoryCurve* curve = theory_curve(curve_name);
@@ -74,7 +74,7 @@ std::vector<TheoryLine> lines_of(std::string_view curve_name, const TheoryPoint&
     lines.back().values = std::move(column);
   }
   return lines;
-} catch (const std::invalid_argument&) {  // elastic, say
+} catch (const std::invalid_argument&) {  // an elastic gas, for instance
   return {};
 } catch (const std::domain_error&) {
   return {};
@@ -128,8 +128,8 @@ bool is_heated(const TheoryPoint& at) {
   return at.gas.heating > 0;
 }
 
-// What Enskog's theory knows of an elastic gas: the contact value, where g begins, self-diffusion,
-// and how velocities are forgotten. Of gases that cool slowly it is the first guess.
+// Enskog's theory of an elastic gas: the contact value, at which g begins, self-diffusion, and the
+// decay of velocity correlations. For gases that cool slowly it is a first approximation.
 std::vector<TheoryLine> lines_of_elastic_gas(const std::string& profile, const TheoryPoint& at,
                                              std::span<const double> x) {
   if (at.roughness || at.mixture) return {};
@@ -153,8 +153,8 @@ std::vector<TheoryLine> lines_of_elastic_gas(const std::string& profile, const T
   return {line, simulated};
 }
 
-// What collisions of an elastic gas are like in molecular chaos: of a gas that cools the first
-// guess. Impact parameters alone do not depend on masses and temperatures of species.
+// Collisions of an elastic gas in molecular chaos, a first approximation for a gas that cools. Only
+// impact parameters do not depend on masses and temperatures of species.
 std::vector<TheoryLine> lines_of_collisions(const std::string& profile, const TheoryPoint& at,
                                             std::span<const double> x) {
   TheoryLine line = line_named(profile + "_chaos");
@@ -193,7 +193,7 @@ std::vector<TheoryLine> spectrum(const std::string& profile, const TheoryPoint& 
   return {equal, hydrodynamic};
 }
 
-// A thermostat with constant e: what the gas comes to rest at.
+// The stationary state of a gas with a thermostat and a constant e.
 void add_heated_a2(const TheoryPoint& at, std::size_t count, std::vector<TheoryLine>& lines) {
   if (!is_heated(at) || !std::holds_alternative<analysis::ConstantRestitution>(at.gas.law)) return;
   if (at.roughness || at.mixture) return;

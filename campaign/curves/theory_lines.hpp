@@ -22,9 +22,9 @@ struct TheoryLine {
   std::vector<double> errors = {};  // empty where the theory has none
 };
 
-// Each gives a value for each place, and no line where theory has nothing to say of this gas. A
+// Each function gives a value for each place, and no line where there is no theory of this gas. A
 // direct simulation that is not in the table is computed where the law of restitution is not a
-// constant e, and left out otherwise.
+// constant e, and is left out otherwise.
 enum class Simulations { computed, left_out };
 
 // A column of samples, at increasing tau.

@@ -11,7 +11,7 @@
 
 namespace haff::campaign {
 
-// No curve is meant, or theory has nothing to say of what it is asked for.
+// The question names no curve, or there is no theory for it.
 struct TheoryError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -42,7 +42,7 @@ std::vector<std::string> effect_parameters(const schema::Reader& store) {
   return all;
 }
 
-// From name to name in the index of each job: the points, which are many, are not read.
+// Goes from name to name in the index of each job, without reading the points, which are many.
 constexpr const char* profile_names =
     "WITH RECURSIVE step (job_id, name) AS ("
     " SELECT job_id, (SELECT min(name) FROM profiles WHERE profiles.job_id = jobs.job_id)"

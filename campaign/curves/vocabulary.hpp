@@ -25,7 +25,7 @@ Vocabulary vocabulary_of(const schema::Reader& store);
 // Quantities that are one number of each run, by their names: tau_c, a2, gamma_ratio, ...
 std::vector<std::string> quantity_names();
 
-// What follows from the columns of a sample, and belongs to it like they do.
+// Quantities that follow from the columns of a sample, and are used like columns.
 struct DerivedColumn {
   std::string_view name;
   std::string sql;

@@ -38,7 +38,7 @@ std::string contents(std::FILE* file) {
   return text;
 }
 
-// gnuplot points at the place in the script and then says what is wrong there.
+// gnuplot first shows the place in the script, and says in the last line what is wrong there.
 std::string last_line(std::string text) {
   text.erase(text.find_last_not_of("\n ") + 1);
   return printable(text.substr(text.rfind('\n') + 1));
@@ -61,7 +61,7 @@ std::string run_gnuplot(const std::string& script) {
   posix_spawn_file_actions_adddup2(&actions, fileno(complaints.get()), STDERR_FILENO);
   char name[] = "gnuplot";
   char defaults[] = "-d";  // without start-up files
-  // By this name gnuplot reads its input in large pieces, and without it byte by byte.
+  // By this name gnuplot reads its input in large pieces; without it, byte by byte.
   char script_file[] = "/dev/stdin";
   char* arguments[] = {name, defaults, script_file, nullptr};
   pid_t child = 0;

@@ -15,7 +15,7 @@ struct GnuplotMissing : std::runtime_error {
 
 // Runs the script to its end and returns what it writes to its standard output: the picture, where
 // the script sets no output. Throws GnuplotMissing, or std::runtime_error with gnuplot's own words
-// if it fails. Warnings, of fonts say, are not errors.
+// if it fails. Warnings, about fonts for instance, are not errors.
 std::string run_gnuplot(const std::string& script);
 
 }  // namespace haff::campaign

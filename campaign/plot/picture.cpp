@@ -33,9 +33,9 @@ bool is_whole(std::string_view picture, PictureFormat format) {
   return picture.starts_with(svg_begin) && picture.ends_with(svg_end);
 }
 
-// What gnuplot leaves undone in its SVG. Blanks next to a change of font, which some viewers drop,
-// are kept. The caption is the picture's title: the page shows it as text, so its place below the
-// axes is cut off.
+// Completes the SVG of gnuplot: keeps blanks next to a change of font, which some viewers drop, and
+// makes the caption the picture's title. The page shows the caption as text, so that its place
+// below the axes is cut off.
 std::string finished(std::string svg, const Plot& plot) {
   const auto replace = [&](std::string_view old, const std::string& now) {
     const auto place = svg.find(old);

@@ -38,7 +38,7 @@ std::string in_quotes(std::string_view text) {
   return result + "'";
 }
 
-// Blanks that a line must not be broken at: around "=", within a number, and before "%".
+// Blanks at which a line must not be broken: around "=", within a number, and before "%".
 std::string bound(std::string_view text) {
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   std::string result;
@@ -52,7 +52,7 @@ std::string bound(std::string_view text) {
   return result;
 }
 
-// Lines of at most so many characters, broken at blanks.
+// Lines of at most this many characters, broken at blanks.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
   const auto length = [](std::string_view utf8) {
     return static_cast<std::size_t>(
@@ -77,7 +77,7 @@ bool drawable(double x, const Axis& axis) {
   return std::isfinite(x) && (!axis.logarithmic || x > 0);
 }
 
-// Points that the picture shows of a curve.
+// The points of a curve that the picture shows.
 std::vector<std::size_t> shown_points(const Curve& curve, const Panel& panel) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
@@ -262,7 +262,7 @@ Caption laid_out(const Plot& plot) {
   return caption;
 }
 
-// A line of data as gnuplot takes it literally: it would read \n as the end of a line.
+// A line of data that gnuplot shows as it is: it would otherwise read \n as the end of a line.
 std::string as_data(std::string_view line) {
   std::string data;
   for (const char c : line) data += c == '\\' ? std::string("\\\\") : std::string(1, c);

@@ -29,7 +29,7 @@ std::string blanks(int count) {
   return std::string(static_cast<std::size_t>(std::max(0, count)), ' ');
 }
 
-// The first so many characters.
+// The first characters, this many.
 std::string cut(const std::string& text, int width) {
   std::size_t end = 0;
   for (int k = 0; end < text.size() && k < width; ++k) do
@@ -192,7 +192,7 @@ class Painter {
   }
 
   void line(const Place& from, const Place& to, Look look, int colour) const {
-    // Only what is within reach: a curve may leave the picture far behind.
+    // Only the part near the picture: a curve may run far beyond it.
     const double most = 4.0 * (canvas_.dots_wide() + canvas_.dots_high());
     const double length = std::max({std::abs(to.x - from.x), std::abs(to.y - from.y), 1.0});
     if (!(length < most * 100)) return;

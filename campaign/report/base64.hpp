@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Bytes as text, RFC 4648: how a page of text carries a file.
+// Bytes as text (RFC 4648), by which a page carries a file.
 #pragma once
 
 #include <span>

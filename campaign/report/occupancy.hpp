@@ -17,9 +17,9 @@ struct Occupancy {
   std::vector<double> time, busy;
 };
 
-// From the start, the end and the CPU time of each job: a store keeps no more. A job's CPU time is
-// spread evenly from its first start to its end, or to its last sign of life, so that a job which
-// was interrupted for a night counts for as little as it did in that time. By host, in their order.
+// From the start, the end and the CPU time of each job, since a store keeps no more. A job's CPU
+// time is spread evenly from its first start to its end, or to its last sign of life, so that a job
+// that was interrupted for a night counts for little in that time. The hosts are in their order.
 std::vector<Occupancy> occupancy(const std::vector<schema::JobRow>& jobs,
                                  const std::vector<schema::RunningJob>& running);
 

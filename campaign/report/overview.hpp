@@ -34,11 +34,11 @@ Overview look(const schema::Reader& store);
 
 double fraction_done(const schema::Summary& summary);  // of the expected CPU time, 0 ... 1
 
-// Until all that is planned is done, if as many jobs run at a time as run now; nothing while none
+// The time until all planned work is done, if as many jobs run at a time as now; nothing while none
 // runs. [s]
 std::optional<double> seconds_left(const Overview& overview);
 
-// What the jobs that are done took, beside what was expected for them. [s of CPU time]
+// The CPU time that finished jobs took, beside what was expected for them. [s]
 struct ExpectedAndSpent {
   double expected = 0, spent = 0;
 };

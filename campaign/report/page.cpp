@@ -97,7 +97,7 @@ double seconds_since_1970() {
   return now.count();
 }
 
-// As the content of an element `script`, where nothing but "</" and "<!--" could end it early.
+// Text as the content of an element `script`, which only "</" and "<!--" could end early.
 std::string script_text(std::string_view json) {
   std::string text;
   for (const char character : json)
@@ -115,7 +115,7 @@ std::string_view asset(std::string_view name) {
   return found->bytes;
 }
 
-// The template with each {{name}} replaced. What is put in is not looked at again.
+// The template with each {{name}} replaced. Names in what is put in are left alone.
 template <class Value>
 std::string filled(std::string_view text, Value&& value_of) {
   std::string page;

@@ -21,8 +21,8 @@ struct PageMissing : std::runtime_error {
 // Throws PageMissing if the program has no page.
 void require_page();
 
-// What changes while a run is on, as JSON: where the campaign stands (overview_json), and of what
-// the page's first part is made.
+// What changes while a run is on, as JSON: where the campaign stands (overview_json), and the rest
+// of what the page's first part shows.
 std::string page_data(const schema::Reader& store);
 
 // The averaged tables of the store, with the table `theory` beside them (theory_table.hpp), as an

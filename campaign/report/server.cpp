@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* host = "127.0.0.1";
 
-// Reading the store for the page may take this part of the time at most, however many ask.
+// Reading the store for the page may take at most this part of the time, however many browsers ask.
 constexpr double share_of_reading = 0.05;
 
 constexpr std::size_t most_browsers = 8;  // that are answered at a time

@@ -24,8 +24,8 @@ constexpr const char* gas_columns = "d, e, n, particles, equilibrate, sample_eve
 constexpr std::size_t gas_width = 7;
 
 // Theory is given where the gas is measured: at the first places, where it forgets how it began,
-// and at some of the later ones. Of more profiles than these only the last one of each gas has it.
-// A place takes up to a millisecond, and a hundred bytes of the page.
+// and at some of the later ones. Where there are more profiles than this, only the last one of each
+// gas has theory. A place takes up to a millisecond, and a hundred bytes of the page.
 constexpr std::size_t first_points = 12;
 constexpr std::size_t later_points = 20;
 constexpr std::size_t most_profiles = 200;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The theory that is drawn beside the curves of the page: a table for its browser, since the theory
-// itself is not in it.
+// The theory that is drawn beside the curves of the page: a table, since the browser cannot compute
+// it.
 #pragma once
 
 #include "schema/store/averaged_tables.hpp"
 
 namespace haff::campaign {
 
-// Of every gas that the mean views have, what curves/theory_lines knows of its columns and
-// profiles, but for direct simulations that would have to be computed. Columns: those by which
+// For every gas in the mean views, the lines that curves/theory_lines has for its columns and
+// profiles, except direct simulations that would have to be computed. Columns: those by which
 // mean_profiles tells gases apart, then
 //   name     of the column or profile
 //   tau      of a profile; NULL for a column, which is drawn against tau

@@ -32,11 +32,11 @@ std::int64_t integer(const schema::Value& value) {
   return std::get<std::int64_t>(value);
 }
 
-// Rows of smooth spheres with constant restitution, started and sampled as the paper's.
+// Rows of smooth spheres with constant restitution, started and sampled like those of the paper.
 constexpr const char* plain_gas =
     " d = 3 AND effects = '{}' AND sample_at IS NULL AND start IS NULL";
 
-// Of the same with velocities shuffled.
+// The same gases with velocities shuffled.
 constexpr const char* shuffled_gas =
     " d = 3 AND sample_at IS NULL AND start IS NULL AND (SELECT group_concat(key) FROM "
     "json_each(effects)) = "
@@ -155,8 +155,8 @@ Realization read_realization(const schema::Reader& store, std::int64_t job_id, s
   return run;
 }
 
-// A realization that was run again to observe more is one, as in the views: its second run adds
-// what the first did not observe, and how much further it went.
+// A realization that was run again to observe more counts once, as in the views: its second run
+// adds what the first did not observe, and the part beyond its end.
 void add_what_is_new(Realization& run, Realization other) {
   if (other.tau.size() > run.tau.size()) std::swap(run, other);
   const auto fill = [](std::vector<double>& values, const std::vector<double>& from) {
@@ -169,7 +169,7 @@ void add_what_is_new(Realization& run, Realization other) {
   if (!run.tau_c) run.tau_c = other.tau_c;
 }
 
-// Adds the runs that each mean is of, and counts those that are missing.
+// Adds the runs that each mean averages, and counts those that are missing.
 void read_runs(const schema::Reader& store, const char* gas,
                std::map<schema::Row, MeanSeries>& all) {
   schema::Query rows = store.query(
@@ -196,12 +196,12 @@ void read_runs(const schema::Reader& store, const char* gas,
   }
 }
 
-// One sample, at the start, is no series.
+// A single sample, at the start, makes no series.
 bool measured(const Means& means) {
   return std::ranges::count_if(means.value, [](double x) { return std::isfinite(x); }) > 1;
 }
 
-// Of all that pass, the best of each key, by increasing key.
+// The best series of each key among those that pass, by increasing key.
 template <class T, class Pass, class Rank>
 std::vector<T> best_of_each(const std::vector<T>& all, double T::*key, Pass pass, Rank rank) {
   std::map<double, const T*> best;
@@ -255,7 +255,7 @@ const MeanProfile* MeanSeries::profile(const std::string& name, double at) const
 }
 
 Averages read_averages(const schema::Reader& store) {
-  // The views know nothing of digests.
+  // The views do not check digests.
   store.must_match_digests({schema::Part::samples, schema::Part::profiles, schema::Part::results});
   auto all = read_means(store, plain_gas);
   read_profiles(store, all);

@@ -18,17 +18,17 @@ namespace haff::campaign {
 
 // Means over realizations, one a sample, and their errors: half the 68 % interval of the mean by
 // Student's t, which is larger than the standard error by 1.84, 1.32, 1.20 for 2, 3, 4
-// realizations; a standard error of so few values is itself known too badly to be drawn.
+// realizations, since a standard error of so few values is too uncertain to be drawn.
 // Neighbouring samples are correlated. NaN where there is none.
 struct Means {
   std::vector<double> value, error;
 };
 
-// Such an error, of a standard error over so many realizations. NaN for one.
+// Such an error, from the standard error over this many realizations. NaN for one.
 double bar(double standard_error, std::int64_t realizations);
 
-// The same of a mean that `velocities` independent velocities, of all realizations together, went
-// into; of the Laguerre coefficient of this order (0 for everything else) never less than that of
+// The same for a mean over `velocities` independent velocities of all realizations together. That
+// of the Laguerre coefficient of this order (0 for everything else) is never less than that of
 // Gaussian velocities.
 double error_of_mean(int laguerre, double standard_error, std::int64_t realizations,
                      double velocities, int d = 3);
@@ -114,8 +114,9 @@ Averages read_averages(const schema::Reader& store);
 // Nothing if no realization reached it.
 std::optional<MeanTauC> mean_tau_c(const MeanSeries& series);
 
-// What a figure draws at density n: for each inelastic e one series that has the observable, of
-// the most particles in all realizations together, then the longest. By increasing e.
+// The series that a figure draws at density n: for each inelastic e, among those that have the
+// observable, the one with the most particles in all realizations together, then the longest. By
+// increasing e.
 using Observable = Means MeanSeries::*;
 std::vector<MeanSeries> choose_series(const Averages& averages, double n, Observable observable);
 
@@ -126,7 +127,7 @@ std::vector<MeanSeries> choose_densities(const Averages& averages, double e, Obs
 std::vector<MeanSeries> choose_profiles(const Averages& averages, double n,
                                         const std::string& name);
 
-// Of these, the one whose e is nearest to the wanted. There must be one.
+// The series of these with the nearest e. There must be one.
 const MeanSeries& nearest(const std::vector<MeanSeries>& series, double e);
 
 // Likewise tau_c: for each inelastic e the one of the most particles in all that reached it.

@@ -17,7 +17,8 @@ namespace haff::campaign {
 namespace {
 
 // Waves along the axes of a periodic box have lengths L/1, L/2, ...; the oblique ones between them
-// change the fastest rate by little. Beyond so many none grows in any box that fits into a machine.
+// change the fastest rate by little. Shorter waves than this grow in no box that fits into a
+// machine.
 constexpr int most_waves = 100'000;
 
 double growth_rate(const analysis::Gas& gas, double k) {

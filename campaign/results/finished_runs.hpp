@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Runs that are done, with what they cost: what accuracy and its price are judged from.
+// Finished runs with their cost, from which accuracy and its price are judged.
 #pragma once
 
 #include <optional>

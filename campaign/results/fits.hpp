@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What is fitted to each realization by itself and then averaged: the spread over realizations is
-// an honest error, that of one fit to correlated samples is not. A realization that a fit cannot
-// take is left out: the estimate's count says how many there were.
+// Quantities that are fitted to each realization by itself and then averaged: the spread over
+// realizations is an honest error, that of one fit to correlated samples is not. A realization to
+// which the fit fails is left out: the estimate's count says how many there were.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What has been published of the cooling gas, for comparison.
+// Published values of the cooling gas, for comparison.
 #pragma once
 
 #include <array>

@@ -37,9 +37,9 @@ std::map<std::string, std::vector<double>> reached_tau_c(const schema::Reader& s
   return reached;
 }
 
-// By how much tau_c comes out early at most: ln(T/T_Haff) is convex, and in the middle between two
-// rows a straight line lies above it by curvature sample_every^2/8. Over its slope the curvature is
-// 2.8 ... 4.4 over tau_c by the energy equation, e = 0.8 ... 0.95.
+// The most by which tau_c comes out early: ln(T/T_Haff) is convex, and in the middle between two
+// rows a straight line lies above it by curvature sample_every^2/8. The ratio of curvature and
+// slope is 2.8 ... 4.4 / tau_c by the energy equation, e = 0.8 ... 0.95.
 double early(const Series& series) {
   return series.job.sample_every * series.job.sample_every / (2 * *series.tau_c);
 }
@@ -53,7 +53,7 @@ std::string tau_c_text(const Series& series) {
   return text;
 }
 
-// What sets series apart that agree in d, e, n and N: those of the rest that are not all the same.
+// The parameters that distinguish series which agree in d, e, n and N.
 class Rest {
  public:
   explicit Rest(const std::vector<Series>& list) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Series: cooling jobs that differ in nothing but their seed, with what they have given so far.
+// Series: cooling jobs that differ only in their seed, with their results so far.
 #pragma once
 
 #include <optional>

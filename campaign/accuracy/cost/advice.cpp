@@ -11,10 +11,11 @@ namespace haff::campaign {
 
 namespace {
 
-// Errors that advice is given for where none is asked: today's, and less by this.
+// Where no error is asked for, advice is given for today's error, and for one smaller by this
+// factor.
 constexpr double ambition = 10;
 
-// Fewer leave the scatter, and with it the advice, open to a third.
+// With fewer runs the scatter, and with it the advice, is uncertain by a third.
 constexpr std::size_t fewest_runs = 5;
 
 // The errors wanted of a quantity: those that name its window before those of its measure.

@@ -23,8 +23,8 @@ struct Advice {
   std::vector<std::string> notes = {};
 };
 
-// Of each gas and quantity one a target, in the order of the statistics. Without targets the errors
-// of today are taken, and a tenth of them.
+// One piece of advice for each gas, quantity and target, in the order of the statistics. Without
+// targets, today's errors and a tenth of them are taken.
 std::vector<Advice> advice(const Assessment& assessment, const std::vector<CostTarget>& targets,
                            Forecast& forecast);
 

@@ -2,7 +2,7 @@
 
 // `campaign cost`: what accuracy costs in time, from what the store holds.
 //
-// For each quantity: its error beside the CPU seconds spent, the part of chance (realizations, N)
+// For each quantity: its error beside the CPU seconds spent, where chance (realizations, N) is kept
 // apart from what no number of realizations removes; and for a wanted error the cheapest gas. A
 // table on `report`; cost.csv (the same with all digits, and the scatter of group means) and a
 // log-log figure of each gas in the folder.

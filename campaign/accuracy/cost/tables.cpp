@@ -42,7 +42,7 @@ std::string gas_text(const schema::Job& job) {
                      job.effects.none() ? "" : ", " + printable(job.effects.text()));
 }
 
-// Names in the order in which they come, each once.
+// Names in the order of their first appearance.
 void add_once(std::vector<std::string>& names, const std::string& name) {
   if (std::ranges::find(names, name) == names.end()) names.push_back(name);
 }
@@ -131,7 +131,7 @@ std::vector<Quantity> quantities_in(const Assessment& assessment) {
   return all;
 }
 
-// What sets two gases apart that started from the same states.
+// In what two gases differ that started from the same states.
 std::string apart(const Difference& each) {
   const auto text = [&](const schema::Job& job) {
     return each.job.e != each.reference.e ? "e " + e_text(job) : job.effects.text();
@@ -177,7 +177,7 @@ void print_unknown(const Assessment& assessment, std::ostream& report) {
   if (!gases.empty()) fmt::print(report, "\n");
 }
 
-// Why no run has it, and what to plan so that one has.
+// Why no run has the quantity, and what to plan so that one has it.
 std::string reason_for(const NotMeasured& absence) {
   const Quantity& quantity = absence.quantity;
   if (quantity.measure == Measure::tau_c) return R"(no run reaches it; plan a larger "tau_max")";
@@ -204,7 +204,7 @@ void print_absent(const Assessment& assessment, std::ostream& report) {
   if (!order.empty()) fmt::print(report, "\n");
 }
 
-// What the runs have watched of their rounding themselves.
+// The rounding errors that the runs themselves have recorded.
 void print_rounding(const schema::Reader& store, std::ostream& report) {
   fmt::print(report, "Arithmetic: double (engine/decisions/double-precision.md).");
   auto rows = store.query("SELECT max(energy_mismatch), max(largest_overlap) FROM invariants");
@@ -219,7 +219,7 @@ void print_rounding(const schema::Reader& store, std::ostream& report) {
   fmt::print(report, "\n\n");
 }
 
-// What is asked and neither advised on nor absent from the runs.
+// Targets for which there is no advice, although runs have the quantity.
 void print_unanswered(const Assessment& assessment, const std::vector<CostTarget>& targets,
                       const std::vector<Advice>& advised, std::ostream& report) {
   for (const CostTarget& asked : targets) {

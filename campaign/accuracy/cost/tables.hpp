@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What accuracy costs, for people: tables, and what is missing to know more.
+// What accuracy costs, as tables for people, and which runs would tell more.
 #pragma once
 
 #include <ostream>

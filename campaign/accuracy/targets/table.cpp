@@ -19,7 +19,7 @@ std::string verdict_text(const TargetProgress& progress) {
   return progress.reason.empty() ? text : text + ": " + progress.reason;
 }
 
-// How many realizations there will be is not known before the pilot runs are done.
+// The number of realizations is not known before the pilot runs are done.
 std::string to_come_text(const TargetProgress& progress) {
   const double seconds = progress.cpu_seconds_to_come();
   if (seconds <= 0) return no_value;

@@ -61,7 +61,7 @@ double mean_cpu_seconds(const FinishedSeries& series) {
   return spent_cpu_seconds(series) / static_cast<double>(series.runs.size());
 }
 
-// What the finished realizations say of a target.
+// What the finished realizations tell about a target.
 struct Values {
   std::vector<double> all;
   std::size_t without = 0;  // realizations that have no such value
@@ -154,7 +154,7 @@ std::vector<TargetProgress> progress_of(const schema::Reader& store,
   std::vector<TargetProgress> all;
   for (const schema::Target& target : targets) {
     const auto found = runs.find(target.series);
-    if (found == runs.end()) continue;  // only tried out: nothing is planned of it
+    if (found == runs.end()) continue;  // a dry run: none of its jobs is planned
     TargetProgress progress{.target = target, .job = found->second.rows.front().job};
     progress.planned = found->second.rows.size();
     const auto found_runs = finished.find(target.series);

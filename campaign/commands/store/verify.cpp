@@ -44,7 +44,7 @@ struct Findings {
   std::vector<std::string> unknown;  // what the system could not read
 
   bool lacks_log = false;            // a copy made while a run was on
-  std::int64_t without_digests = 0;  // jobs: no fault, but less is known of them
+  std::int64_t without_digests = 0;  // jobs: no fault, but changes of their rows go unseen
 
   std::size_t faults() const {
     return file.size() + derived.size() + jobs.size() + states.size() + rows.size() + tables.size();

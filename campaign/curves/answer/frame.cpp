@@ -60,7 +60,7 @@ void set_x_range(const Panel& panel, Axis& axis) {
   }
   const double room = 0.03 * (high - low);
   axis.low = starts_at_zero ? 0 : low - room;
-  // A line may end at the frame, a symbol would be cut by it.
+  // A line may end at the frame, which would cut a symbol in half.
   const bool may_touch =
       panel.curves.front().look == Look::line && panel.curves.front().x.size() > most_in_legend;
   axis.high = high + (starts_at_zero && may_touch ? 0 : room);

@@ -27,7 +27,7 @@ std::vector<double> steps(double from, double to, int count) {
   return values;
 }
 
-// Line by line ours less theirs, where both have it.
+// Our lines less theirs, where both have a line of the name.
 std::vector<TheoryLine> subtracted(std::vector<TheoryLine> ours,
                                    const std::vector<TheoryLine>& theirs) {
   std::vector<TheoryLine> left;
@@ -69,7 +69,7 @@ void cut_after(PlacedLine& placed, double last) {
 // sampled at any moments, so their number says nothing of it.
 double tau_after(double time, const schema::Job& job) {
   constexpr double farthest =
-      1e6;  // no gas of ours gets there, and a clock that is not a number ends
+      1e6;  // no gas of ours comes so far, and a clock that turns NaN ends here
   for (double end = 1; end < farthest; end *= 2) {
     const auto tau = steps(0, end, theory_points);
     std::size_t passed = 0;
@@ -132,7 +132,7 @@ std::vector<Gas> gases_between(const Topic& topic, const GasCurve& curve, bool i
   for (const double value : x) {
     Gas gas = curve.gases.front();
     (topic.x == "e" ? gas.job.e.emplace() : gas.job.n) = value;
-    // A reference of another e stays where it is; of another effect it moves along.
+    // A reference with another e keeps it; one with other effects takes the same e or n.
     if (gas.reference && gas.reference->effects != gas.job.effects)
       (topic.x == "e" ? gas.reference->e.emplace() : gas.reference->n) = value;
     gases.push_back(std::move(gas));
@@ -171,8 +171,8 @@ bool is_dear(const GasCurve& curve) {
   });
 }
 
-// chi is in the lengths of theories with correlations, in Z, in collision rates, and in the time
-// that tau takes.
+// Theories with correlations take chi for their lengths; so do Z, collision rates, and the time of
+// a tau.
 bool takes_contact_value(const Curve& curve, const std::string& x) {
   if (curve.source != Source::theory) return false;
   constexpr std::array marks{"_energy_equation", "compressible", "_enskog", "collision_rate",
