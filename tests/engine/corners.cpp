@@ -267,6 +267,22 @@ TEST_CASE("corner: three-body contacts are conserved and ordered by id") {
   CHECK(by_id(gas, start) == std::vector<Vector>{{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}});
 }
 
+TEST_CASE(
+    "corner: of two partners met at the same instant the one with the smaller id comes first") {
+  // At the time 3, particle 0 hits particle 3 and stops. Its search then finds 1 and 2, which will
+  // both hit it at the time 5, and whose own searches were made before.
+  const State start = state_of(16, {{8, 4, 8}, {2, 7, 8}, {14, 7, 8}, {8, 8, 8}},
+                               {{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 0}});
+  for (const auto search : {engine::SearchBackend::simd, plain}) {
+    Simulation gas({.restitution = 1}, start, search);
+    gas.run_to(1);
+    CHECK(gas.time() == 3);
+    gas.run_to(2);
+    CHECK(gas.time() == 5);
+    CHECK(by_id(gas, start) == std::vector<Vector>{{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}, {0, 1, 0}});
+  }
+}
+
 TEST_CASE("corner: Newton's cradle") {
   const State start =
       state_of(16, {{1, 8, 8}, {4, 8, 8}, {5, 8, 8}, {6, 8, 8}, {7, 8, 8}, {8, 8, 8}},
