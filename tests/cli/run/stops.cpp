@@ -21,9 +21,10 @@ void plan(const Folder& folder, const std::string& grid) {
 
 TEST_CASE("stops: one near a synchronization keeps what was computed, without a checkpoint due") {
   const Folder folder;
-  // A synchronization is a few thousand collisions away at any time: far less than a second.
-  plan(folder, R"({"e": 0.9, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 100000, "sample_every": 100,
-                   "checkpoint_every": 100000})");
+  // A synchronization is 200 000 collisions away at most, a fraction of a second, and ten stretches
+  // between which a worker looks whether it is to stop.
+  plan(folder, R"({"e": 0.9, "n": 0.4, "N": 40000, "seeds": 1, "tau_max": 100000, "equilibrate": 10,
+                   "sample_every": 100, "checkpoint_every": 100000})");
   Program run(folder, {"run", "--workers", "1"});
   while (number(folder,
                 "SELECT count(*) FROM jobs WHERE kind = 'cooling' AND status = 'running'") == 0)
@@ -64,13 +65,14 @@ TEST_CASE("stops: ten kills in a row without progress are excused, three more fa
 TEST_CASE("stops: at a limit the gas goes on to a synchronization, however long that takes") {
   const Folder folder;
   plan(folder,
-       R"({"e": 0.9, "n": 0.4, "N": 200000, "seeds": 1, "equilibrate": 10, "tau_max": 20})");
+       R"({"e": 0.9, "n": 0.4, "N": 400000, "seeds": 1, "equilibrate": 10, "tau_max": 20})");
   REQUIRE(campaign(folder, {"run", "--where", "kind = 'equilibration'"}).exit_code == 0);
-  Program run(folder, {"run", "--workers", "1", "--budget", "1s"});
+  Program run(folder, {"run", "--workers", "1", "--budget", "0.5s"});
   while (number(folder, "SELECT count(*) FROM jobs WHERE status = 'running'") == 0) sleep_for(5ms);
   sleep_for(300ms);
-  // A worker that did not run for six seconds expects many more for the rest of the period, and
-  // would give up what it has if a signal asked it to stop.
+  // The limit comes early in the first period of a second or more. A worker that did not run for
+  // six seconds expects many more for the rest of it, and would give up what it has if a signal
+  // asked it to stop.
   const pid_t worker = run.workers().at(0);
   kill(worker, SIGSTOP);
   sleep_for(6s);
