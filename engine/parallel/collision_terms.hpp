@@ -5,8 +5,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "engine/parallel/tape.hpp"
 #include "engine/support/choose.hpp"
 
 namespace haff::engine {
@@ -40,12 +40,12 @@ struct CollisionRecord {
 // Visits the records of two lists, each in the order of time and rank, in this order. Which of the
 // two lists has the next one is as good as random: there is no branch on it.
 template <class Visit>
-void visit_in_order(const std::vector<CollisionRecord>& one,
-                    const std::vector<CollisionRecord>& other, const Visit& visit) {
-  const CollisionRecord* a = one.data();
-  const CollisionRecord* b = other.data();
-  const CollisionRecord* const a_end = a + one.size();
-  const CollisionRecord* const b_end = b + other.size();
+void visit_in_order(const Tape<CollisionRecord>& one, const Tape<CollisionRecord>& other,
+                    const Visit& visit) {
+  const CollisionRecord* a = one.begin();
+  const CollisionRecord* b = other.begin();
+  const CollisionRecord* const a_end = one.end();
+  const CollisionRecord* const b_end = other.end();
   while (a != a_end && b != b_end) {
     bool second = b->time < a->time;
     if (b->time == a->time) [[unlikely]]
@@ -58,10 +58,10 @@ void visit_in_order(const std::vector<CollisionRecord>& one,
   for (; b != b_end; ++b) visit(*b);
 }
 
-inline void merge(const std::vector<CollisionRecord>& one,
-                  const std::vector<CollisionRecord>& other, std::vector<CollisionRecord>& all) {
+inline void merge(const Tape<CollisionRecord>& one, const Tape<CollisionRecord>& other,
+                  Tape<CollisionRecord>& all) {
   all.resize(one.size() + other.size());
-  CollisionRecord* next = all.data();
+  CollisionRecord* next = all.begin();
   visit_in_order(one, other, [&next](const CollisionRecord& record) { *next++ = record; });
 }
 

@@ -79,6 +79,11 @@ void ParallelLoop::predict_all() {
 }
 
 void ParallelLoop::run(std::int64_t collisions, double end) {
+  work_until(collisions, end);
+  add_pending();
+}
+
+void ParallelLoop::work_until(std::int64_t collisions, double end) {
   while (gas_.clock.collisions < collisions) {
     const auto left = static_cast<double>(collisions - gas_.clock.collisions);
     // With this margin, a window has more collisions than are left once in 1e9 times.
@@ -98,6 +103,7 @@ void ParallelLoop::run(std::int64_t collisions, double end) {
 
 std::size_t ParallelLoop::memory() const {
   std::size_t bytes = division_.frozen.size() + division_.marks.size() * sizeof(float);
+  for (const auto& list : pending_) bytes += list.memory();
   for (const auto& region : regions_) bytes += region->memory();
   return bytes;
 }
@@ -134,6 +140,7 @@ bool ParallelLoop::work_window(double end, std::int64_t collisions, double last)
       regions_[k]->take_mail(regions_);
       slabs_[k]->work(begin, end);
     }
+    add_pending();  // by the first thread that comes here: it has to wait anyway
     team_.wait_for_all();
     if (is_violated_in(Phase::slab)) return;
     for (unsigned k = thread; k < division_.regions; k += team_.size()) {
@@ -162,6 +169,7 @@ bool ParallelLoop::work_window(double end, std::int64_t collisions, double last)
 bool ParallelLoop::work_in_one_piece(double end, std::int64_t collisions, double last) {
   const double begin = gas_.clock.now;
   const std::int64_t before = gas_.clock.collisions;
+  add_pending();  // before the collisions that come now
   const bool goes_on = alone_->work(regions_, collisions, last);
   const auto done = static_cast<double>(gas_.clock.collisions - before);
   windows_.in_one_piece += gas_.clock.collisions - before;
@@ -245,13 +253,21 @@ void ParallelLoop::keep() {
   for (const auto& region : regions_)
     gas_.clock.invariants.closest2 = std::min(gas_.clock.invariants.closest2, region->closest2);
   const unsigned half = merge_into_two();
+  pending_[0].swap(regions_[0]->ordered);
+  pending_[1].swap(regions_[half]->ordered);
+  is_pending_.store(true, std::memory_order_relaxed);
+}
+
+// Adds to the sums what the last window has left. One thread does it, while others may work off the
+// next window.
+void ParallelLoop::add_pending() {
+  if (!is_pending_.exchange(false, std::memory_order_relaxed)) return;
   Tally tally = gas_.clock.tally;
-  visit_in_order(regions_[0]->ordered, regions_[half]->ordered,
-                 [&tally](const CollisionRecord& collision) {
-                   tally.virial += collision.virial;
-                   tally.dissipated += collision.dissipated[0];
-                   tally.dissipated += collision.dissipated[1];
-                 });
+  visit_in_order(pending_[0], pending_[1], [&tally](const CollisionRecord& collision) {
+    tally.virial += collision.virial;
+    tally.dissipated += collision.dissipated[0];
+    tally.dissipated += collision.dissipated[1];
+  });
   gas_.clock.tally = tally;
 }
 

@@ -7,11 +7,13 @@
 // those around the border below it (zone_loop-inl.hpp). If two events were processed in the wrong
 // order, the window is undone and worked off in one piece (one_piece_loop-inl.hpp).
 //
-// What collisions add to sums is added up after the window, in the order of time, as one thread
-// does it. A run stops at an exact number of collisions: the last few hundred events before it are
-// worked off in one piece.
+// What collisions add to sums is added up while the next window is worked off, in the order of
+// time, as one thread does it. A run stops at an exact number of collisions: the last few hundred
+// events before it are worked off in one piece.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -39,6 +41,7 @@ class ParallelLoop {
   void for_own_part(unsigned thread, const Visit& visit);
   template <class Job>
   void for_each_region(const Job& job);
+  void work_until(std::int64_t collisions, double end);
   bool work_window(double end, std::int64_t collisions, double last);
   bool work_in_one_piece(double end, std::int64_t collisions, double last);
   bool stop_at(double last);
@@ -47,6 +50,7 @@ class ParallelLoop {
   void adapt(double factor);
   void keep();
   void count_events();
+  void add_pending();
   unsigned merge_into_two();
 
   Gas& gas_;
@@ -60,6 +64,9 @@ class ParallelLoop {
   double window_;    // collisions per particle
   double rate_ = 0;  // collisions per unit of time
   Windows windows_;
+  // Collisions of the last window whose terms have not been added to the sums yet, in two lists.
+  std::array<Tape<CollisionRecord>, 2> pending_;
+  std::atomic<bool> is_pending_ = false;
   std::vector<std::vector<std::uint32_t>> soon_;  // events in each layer, as each thread counts
 };
 

@@ -22,7 +22,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-// `SlabSearch`: the search of the slabs, where nearly all events are.
+// `SlabSearch`: the search of slabs and zones; the other one is for the rare stretches in one
+// piece.
 template <class Physics, class Search, class SlabSearch = Search>
 class ParallelVariantOf : public PhysicsVariant<Physics>, public LoopMaker {
  public:
@@ -44,7 +45,7 @@ class ParallelVariantOf : public PhysicsVariant<Physics>, public LoopMaker {
     return std::make_unique<SlabLoop<SlabSearch, Physics>>(gas, this->physics_, region);
   }
   std::unique_ptr<AnyZoneLoop> zone_loop(Gas& gas, Region& region) override {
-    return std::make_unique<ZoneLoop<Search, Physics>>(gas, this->physics_, region);
+    return std::make_unique<ZoneLoop<SlabSearch, Physics>>(gas, this->physics_, region);
   }
   std::unique_ptr<AnyOnePieceLoop> one_piece_loop(Gas& gas, Region& region) override {
     return std::make_unique<OnePieceLoop<Search, Physics>>(gas, this->physics_, region);

@@ -26,7 +26,7 @@ struct alignas(128) Region {
   // What happened in one phase.
   struct Done {
     UndoLog log;
-    std::vector<CollisionRecord> collisions;  // in the order of time
+    Tape<CollisionRecord> collisions;  // in the order of time
     Events events;
     // Whether an event was found that only the loop of one thread can process in its order.
     bool violated = false;
@@ -71,10 +71,8 @@ struct alignas(128) Region {
   }
 
   std::size_t memory() const {
-    std::size_t bytes =
-        queue.memory() + (ordered.capacity() + merged.capacity()) * sizeof(CollisionRecord);
-    for (const Done& phase : done)
-      bytes += phase.log.memory() + phase.collisions.capacity() * sizeof(CollisionRecord);
+    std::size_t bytes = queue.memory() + ordered.memory() + merged.memory();
+    for (const Done& phase : done) bytes += phase.log.memory() + phase.collisions.memory();
     for (const auto& list : deferred) bytes += list.capacity() * sizeof(WindowQueue::Entry);
     for (const auto& list : outbox) bytes += list.capacity() * sizeof(std::uint32_t);
     return bytes;
@@ -86,8 +84,8 @@ struct alignas(128) Region {
   std::vector<std::vector<WindowQueue::Entry>> deferred;  // to each zone, in the order of time
   std::vector<std::vector<std::uint32_t>> outbox;         // events after the window, by slab
   std::array<Done, phases> done;
-  std::vector<CollisionRecord> ordered;  // collisions of both phases, in the order of time
-  std::vector<CollisionRecord> merged;   // with those of another region
+  Tape<CollisionRecord> ordered;  // collisions of both phases, in the order of time
+  Tape<CollisionRecord> merged;   // with those of another region
   double closest2 = 1;
 };
 

@@ -33,7 +33,7 @@ class Mementos {
  public:
   void clear() { tape_.clear(); }
   HWY_INLINE void add(const Memento& memento) {
-    if constexpr (!std::is_empty_v<Memento>) tape_.add(memento);
+    if constexpr (!std::is_empty_v<Memento>) *tape_.add(1) = memento;
   }
   void restore(Physics& physics) const {
     for (const Memento* saved = tape_.end(); saved != tape_.begin();) physics.restore(*--saved);
@@ -45,7 +45,7 @@ class Mementos {
 
 // `Loop` derives from this and has
 //   void keep(p)        keeps the event of p as it is, before it changes;
-//   void meet(p, q)     lets two particles collide;
+//   void meet(p, q)     keeps what is known of two particles, and lets them collide;
 //   void touch(cell)    notes that something changes in a cell;
 //   void put(p)         stores that p has its next event at gas.queue[p].time;
 //   Events& counts()    counts events.
@@ -57,8 +57,6 @@ class RegionEvents {
   void collide(std::uint32_t p, std::uint32_t q) {
     const Cell p_cell = gas_.queue[p].cell;
     const Cell q_cell = gas_.queue[q].cell;
-    loop().keep(p);
-    loop().keep(q);
     loop().touch(p_cell);
     loop().touch(q_cell);
     loop().meet(p, q);
@@ -77,14 +75,14 @@ class RegionEvents {
     loop().touch(to);
     std::atomic_ref(event.cell.packed).store(to.packed, std::memory_order_relaxed);
     const Contact contact = search_.beyond(p, to, event.face, now_);
-    if (contact.time < never) {  // if there is none, its partner may be another thread's
-      const Contact known{event.contact_time, event.partner};
-      const std::uint32_t changes = gas_.particles[contact.partner].changes;
-      const bool earlier = engine::comes_before(contact, known, gas_.particles);
-      event.contact_time = choose(earlier, contact.time, known.time);
-      event.partner = choose(earlier, contact.partner, known.partner);
-      event.partner_changes = choose(earlier, changes, event.partner_changes);
-    }
+    // If there is none, its partner may be another thread's.
+    const std::uint32_t partner = choose(contact.time < never, contact.partner, p);
+    const Contact known{event.contact_time, event.partner};
+    const std::uint32_t changes = gas_.particles[partner].changes;
+    const bool earlier = engine::comes_before(contact, known, gas_.particles);
+    event.contact_time = choose(earlier, contact.time, known.time);
+    event.partner = choose(earlier, partner, known.partner);
+    event.partner_changes = choose(earlier, changes, event.partner_changes);
     schedule(p);
   }
 
@@ -111,8 +109,7 @@ class RegionEvents {
                                double& closest2) {
     Particle& a = gas_.particles[p];
     Particle& b = gas_.particles[q];
-    done.log.save(p, a);
-    done.log.save(q, b);
+    done.log.save(p, gas_.queue[p], a, q, gas_.queue[q], b);
     mementos_.add(physics_.memento(a, b));
     CollisionTerms terms;
     const double approach = physics_.collide(a, b, now_, gas_.box, terms);
@@ -120,8 +117,8 @@ class RegionEvents {
       done.violated = true;  // a matter for the watchdog
     closest2 = std::min(closest2, terms.invariants.closest2);
     const auto& lost = terms.tally.dissipated.value;
-    done.collisions.push_back(
-        {now_, rank_of(a, b), terms.tally.virial.value[0], {lost[0], lost[1]}});
+    *done.collisions.add(1) = {
+        now_, rank_of(a, b), terms.tally.virial.value[0], {lost[0], lost[1]}};
   }
 
   // Sends the event of p to the queue of the slab that p is in, for a later window.
@@ -182,11 +179,25 @@ class RegionEvents {
     if (const std::uint32_t p = queue.coming(2 * stride); p != WindowQueue::nothing) {
       const Event& event = gas_.queue[p];
       if (!may_read(event.cell)) return;
-      if (event.face == Event::contact)
+      if (event.face == Event::contact) {
         search_.prefetch_particles_around(event.cell);
-      else if (may_read(gas_.bricks.across(event.cell, event.face)))
+        const Cell there = cell_of_another(event.partner);
+        if (there != event.cell) search_.prefetch_bricks_around(there);
+      } else if (may_read(gas_.bricks.across(event.cell, event.face))) {
         search_.prefetch_particles_beyond(event.cell, event.face);
+      }
     }
+    if (const std::uint32_t p = queue.coming(stride); p != WindowQueue::nothing) {
+      const Event& event = gas_.queue[p];
+      if (event.face != Event::contact) return;
+      const Cell there = cell_of_another(event.partner);
+      if (there != event.cell && may_read(there)) search_.prefetch_particles_around(there);
+    }
+  }
+
+  // The cell of a particle that another thread may just be moving.
+  HWY_INLINE Cell cell_of_another(std::uint32_t p) const {
+    return {std::atomic_ref(gas_.queue[p].cell.packed).load(std::memory_order_relaxed)};
   }
 
   Gas& gas_;

@@ -17,7 +17,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "engine/parallel/any_loops.hpp"
 #include "engine/parallel/region_events-inl.hpp"
@@ -50,7 +49,9 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
   void work(double begin, double end) override try {
     this->now_ = begin;
     slab_ = region_.slab();
-    reach_ = Slab::border;
+    workable_ = slab_.workable();
+    deep_ = slab_.deep();
+    set_reach(Slab::border);
     while (!done_.violated) {
       const std::uint32_t p = region_.queue.next([this](std::uint32_t q) { return this->rank(q); });
       if (p == LadderQueue::nothing) break;
@@ -81,42 +82,34 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
  private:
   HWY_INLINE void try_to_cross(std::uint32_t p) {
     const Event& event = this->gas_.queue[p];
-    const Cell to = this->gas_.bricks.across(event.cell, event.face);
-    if (HWY_LIKELY(may_touch(event.cell) && may_touch(to)))
-      this->cross(p);
-    else
-      defer(p, to);
+    is_far_ = far_.hold(event.cell);
+    if (!is_far_) {
+      const Cell to = this->gas_.bricks.across(event.cell, event.face);
+      if (HWY_UNLIKELY(!(may_touch(event.cell) && may_touch(to)))) return defer(p, to);
+    }
+    this->cross(p);
   }
 
   HWY_INLINE void try_to_collide(std::uint32_t p, std::uint32_t q) {
     const Event& event = this->gas_.queue[p];
-    if (HWY_UNLIKELY(!is_own(q))) {
-      // Far from the border, it cannot be where the contact was expected: it has collided.
-      if (may_touch(event.cell))
-        this->repredict(p);
-      else
-        defer(p, event.cell);  // what is around the partner in this slab has to wait anyway
-      return;
-    }
-    if (this->gas_.particles[q].changes == event.partner_changes) {
+    is_far_ = far_.hold(event.cell);
+    // A partner in another slab cannot be where the contact was expected if that was far from the
+    // border: it has collided. If it was near, what is around it in this slab has to wait anyway.
+    if (HWY_LIKELY(is_own(q)) && this->gas_.particles[q].changes == event.partner_changes) {
       const Cell there = this->gas_.queue[q].cell;
-      if (HWY_LIKELY(may_touch(event.cell) && may_touch(there)))
-        this->collide(p, q);
-      else
-        defer(p, there);
+      if (HWY_UNLIKELY(!is_far_ && !(may_touch(event.cell) && may_touch(there))))
+        return defer(p, there);
+      this->collide(p, q);
     } else {
-      if (HWY_LIKELY(may_touch(event.cell)))
-        this->repredict(p);
-      else
-        defer(p, event.cell);
+      if (HWY_UNLIKELY(!is_far_ && !may_touch(event.cell))) return defer(p, event.cell);
+      this->repredict(p);
     }
   }
 
   // Whether something in this cell may change now. Nothing is frozen farther inside the slab than
   // `reach_` says, which is not far.
   HWY_INLINE bool may_touch(Cell cell) const {
-    return HWY_LIKELY(slab_.is_inside(cell, reach_)) ||
-           (slab_.may_work_in(cell) && !is_frozen(cell));
+    return HWY_LIKELY(untouched_.hold(cell)) || (workable_.hold(cell) && !is_frozen(cell));
   }
   HWY_NOINLINE bool is_frozen(Cell cell) const {
     unsigned frozen = 0;
@@ -133,7 +126,7 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
     if (there != here) freeze(there);
   }
   void defer_to_zone(std::uint32_t p, Cell here) {
-    if (!slab_.is_near_border(here)) done_.violated = true;
+    if (slab_.beyond_zones().hold(here)) done_.violated = true;
     region_.deferred[division_.slabs.zone_of(here)].push_back({this->now_, p});
   }
 
@@ -144,12 +137,21 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
     // Nothing in this slab reads a brick that belongs to two slabs.
     this->visit_bricks_around(cell, [&](std::size_t n, std::uint32_t brick, bool in_next_layer) {
       if (!(in_next_layer ? next : own)) return;
-      if (division_.frozen[brick] == 0) frozen_.push_back(brick);
+      *frozen_.add(1) = brick;
       division_.frozen[brick] |= Bricks::near_cells(n, cell);
     });
     // An event that waits reads one layer of cells more than its own, and so does one that does
     // not.
-    reach_ = std::max(reach_, slab_.depth(cell) + 3);
+    if (const std::uint32_t reach = slab_.depth(cell) + 3; reach > reach_) set_reach(reach);
+  }
+  // Cells with so many layers or more between them and the border have nothing frozen near them.
+  // Those one layer more than that inside, and out of the reach of zones with all that is next to
+  // them, need no further look.
+  void set_reach(std::uint32_t layers) {
+    reach_ = layers;
+    untouched_ = slab_.inside(layers);
+    const std::uint32_t far = std::max(layers, slab_.zone_cells()) + 1;
+    far_ = slab_.inside(far);
   }
   void thaw() {
     for (const std::uint32_t brick : frozen_) division_.frozen[brick] = 0;
@@ -161,10 +163,9 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
   Events& counts() { return done_.events; }
   HWY_INLINE void keep(std::uint32_t p) { done_.log.save(p, this->gas_.queue[p]); }
   HWY_INLINE void touch(Cell cell) {
-    if (HWY_UNLIKELY(!slab_.is_deep(cell)))
-      division_.marks[Division::mark_of(this->gas_.bricks.brick_of(cell) / Bricks::slots,
-                                        cell[this->gas_.bricks.last_axis()] % 2)] =
-          static_cast<float>(this->now_);
+    if (is_far_ || deep_.hold(cell)) return;
+    division_.marks[Division::mark_of(this->gas_.bricks.brick_of(cell) / Bricks::slots,
+                                      deep_.of(cell) % 2)] = static_cast<float>(this->now_);
   }
   HWY_INLINE void meet(std::uint32_t p, std::uint32_t q) {
     this->meet_for_now(p, q, done_, region_.closest2);
@@ -176,7 +177,9 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
 
   // ---- prefetching ----------------------------------------------------------------------------
 
-  // As in the event loop of one thread, but it looks only at what belongs to the region.
+  // As in the event loop of one thread, but it looks only at what belongs to the region: events of
+  // own particles, which are in the slab, and cells next to them. (Those on the other side of the
+  // border change as little as those on this side, and so do those in the same brick.)
   HWY_INLINE void prefetch_upcoming() {
     auto& queue = region_.queue;
     const auto& events = this->gas_.queue;
@@ -197,20 +200,20 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
         search.prefetch_bricks_beyond(event.cell, event.face);
       }
     }
-    if (const std::uint32_t p = queue.coming(2 * stride); is_inside(p)) {
+    if (const std::uint32_t p = queue.coming(2 * stride); is_own(p)) {
       const Event& event = events[p];
       if (event.face == Event::contact) {
         search.prefetch_particles_around(event.cell);
-        if (is_inside(event.partner) && events[event.partner].cell != event.cell)
+        if (is_own(event.partner) && events[event.partner].cell != event.cell)
           search.prefetch_bricks_around(events[event.partner].cell);
-      } else if (slab_.may_work_in(this->gas_.bricks.across(event.cell, event.face))) {
+      } else if (workable_.hold(this->gas_.bricks.across(event.cell, event.face))) {
         search.prefetch_particles_beyond(event.cell, event.face);
       }
     }
     if (!huge_) return;
-    if (const std::uint32_t p = queue.coming(stride); is_inside(p)) {
+    if (const std::uint32_t p = queue.coming(stride); is_own(p)) {
       const Event& event = events[p];
-      if (event.face == Event::contact && is_inside(event.partner) &&
+      if (event.face == Event::contact && is_own(event.partner) &&
           events[event.partner].cell != event.cell)
         search.prefetch_particles_around(events[event.partner].cell);
     }
@@ -218,10 +221,6 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
   HWY_INLINE bool is_own(std::uint32_t p) const {
     return this->gas_.queue[p].owner == region_.number;
   }
-  HWY_INLINE bool is_inside(std::uint32_t p) const {
-    return is_own(p) && slab_.may_work_in(this->gas_.queue[p].cell);
-  }
-
   static constexpr std::uint32_t stride = foresight / 4;
 
   Region& region_;
@@ -230,8 +229,13 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
   Slab slab_;
   bool is_beginning_ = false;
   const bool huge_ = this->gas_.particles.size() > 200000;
-  std::vector<std::uint32_t> frozen_;  // bricks
+  Layers workable_;   // Slab
+  Layers deep_;       // Slab
+  Layers untouched_;  // set_reach()
+  Layers far_;        // set_reach()
   std::uint32_t reach_ = 0;
+  bool is_far_ = false;         // the present event
+  Tape<std::uint32_t> frozen_;  // bricks; one may come several times
 };
 
 }  // namespace haff::engine::HWY_NAMESPACE

@@ -22,60 +22,72 @@
 
 namespace haff::engine {
 
+// Layers of cells next to each other, not across the end of the box.
+class Layers {
+ public:
+  Layers() = default;
+  Layers(const Bricks& bricks, std::uint32_t first, std::uint32_t count)
+      : shift_(10 * bricks.last_axis()), first_(first), count_(count) {}
+
+  bool hold(Cell cell) const { return of(cell) - first_ < count_; }
+  // The coordinate of a cell along the last axis: disks, whose last axis is y, have z = 0.
+  std::uint32_t of(Cell cell) const { return cell.packed >> shift_; }
+  std::uint32_t first() const { return first_; }
+  std::uint32_t count() const { return count_; }
+
+ private:
+  unsigned shift_ = 0;
+  std::uint32_t first_ = 0;
+  std::uint32_t count_ = 0;
+};
+
 class Slab {
  public:
   Slab() = default;
   // `zone_cells`: of the zones at both of its borders.
   Slab(const Bricks& bricks, std::uint32_t first_cell, std::uint32_t cells,
        std::uint32_t zone_cells)
-      : axis_(bricks.last_axis()),
-        cells_(bricks.cells()),
-        first_(first_cell),
-        own_(cells),
-        zone_(zone_cells) {}
+      : bricks_(&bricks), own_(bricks, first_cell, cells), zone_(zone_cells) {}
 
-  // Whether a particle in this cell may have events while other threads work in their slabs.
-  bool may_work_in(Cell cell) const { return is_inside(cell, border); }
-  // Whether the cell is out of the reach of zones.
-  bool is_deep(Cell cell) const { return is_inside(cell, zone_); }
-  // Whether a particle in this cell can have its events in a zone.
-  bool is_near_border(Cell cell) const { return !is_inside(cell, zone_ - 1); }
-  // Whether the brick of a cell is in the slab, with both of its layers of cells, and whether the
-  // next brick is that has neighbours of the cell.
-  bool holds_brick_of(Cell cell) const {
-    const std::uint32_t lower = cell[axis_] & ~1u;
-    return height_of(lower) < own_ && height_of(lower + 1) < own_;
-  }
-  bool holds_brick_next_to(Cell cell) const {
-    const std::uint32_t lower = (cell[axis_] & ~1u) + (cell[axis_] % 2 == 1 ? 2 : cells_ - 2);
-    return height_of(lower) < own_ && height_of(lower + 1) < own_;
-  }
-
-  // Whether so many layers of cells of the slab, or more, are on either side between the cell and
+  // The cells in which particles may have events while other threads work in their slabs.
+  Layers workable() const { return inside(border); }
+  // The cells out of the reach of zones.
+  Layers deep() const { return inside(zone_); }
+  // The cells whose particles cannot have their events in a zone.
+  Layers beyond_zones() const { return inside(zone_ - 1); }
+  // The cells with so many layers of cells of the slab, or more, on either side between them and
   // the border.
-  bool is_inside(Cell cell, std::uint32_t layers) const {
-    return height(cell) - layers < own_ - std::min(2 * layers, own_);
+  Layers inside(std::uint32_t layers) const {
+    const std::uint32_t outside = std::min(2 * layers, own_.count());
+    return {*bricks_, own_.first() + layers, own_.count() - outside};
   }
   // The number of these layers, on the side where it is smaller; zero outside of the slab.
   std::uint32_t depth(Cell cell) const {
-    const std::uint32_t above = height(cell);
-    return above < own_ ? std::min(above, own_ - 1 - above) : 0;
+    const std::uint32_t above = own_.of(cell) - own_.first();
+    return own_.hold(cell) ? std::min(above, own_.count() - 1 - above) : 0;
+  }
+
+  std::uint32_t zone_cells() const { return zone_; }
+
+  // Whether the brick of a cell is in the slab, with both of its layers of cells, and whether the
+  // next brick is that has neighbours of the cell.
+  bool holds_brick_of(Cell cell) const { return holds_brick(own_.of(cell) & ~1u); }
+  bool holds_brick_next_to(Cell cell) const {
+    const std::uint32_t layer = own_.of(cell);
+    return holds_brick((layer & ~1u) + (layer % 2 == 1 ? 2 : bricks_->cells() - 2));
   }
 
   static constexpr std::uint32_t border = 2;  // layers of cells that belong to zones only
 
  private:
-  // Above the lower border, in cells; at least `own_` outside of the slab.
-  std::uint32_t height(Cell cell) const {
-    const std::uint32_t from_first = cell[axis_] - first_;
-    return from_first + (from_first >> 31) * cells_;
+  // `lower`: its lower layer of cells, counted on across the end of the box.
+  bool holds_brick(std::uint32_t lower) const {
+    const std::uint32_t above = lower % bricks_->cells() - own_.first();
+    return above < own_.count() && above + 1 < own_.count();
   }
-  // The same for any layer of cells, counted on across the end of the box.
-  std::uint32_t height_of(std::uint32_t layer) const { return (layer + cells_ - first_) % cells_; }
-  unsigned axis_ = 0;
-  std::uint32_t cells_ = 0;  // of the box
-  std::uint32_t first_ = 0;
-  std::uint32_t own_ = 0;
+
+  const Bricks* bricks_ = nullptr;
+  Layers own_;
   std::uint32_t zone_ = 0;
 };
 

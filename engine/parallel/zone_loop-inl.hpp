@@ -81,8 +81,7 @@ class alignas(128) ZoneLoop final : public AnyZoneLoop,
     // Another zone may just be moving the partner; then its cell, before and after, belongs to that
     // zone.
     const std::uint32_t q = event.partner;
-    const Cell there{
-        std::atomic_ref(this->gas_.queue[q].cell.packed).load(std::memory_order_relaxed)};
+    const Cell there = this->cell_of_another(q);
     if (this->gas_.bricks.are_neighbours(event.cell, there) &&
         this->gas_.particles[q].changes == event.partner_changes) {
       if (there != event.cell && !may_touch(there, event.time)) return false;

@@ -31,8 +31,8 @@ TEST_CASE("slabs: a border may cut a layer of bricks in two") {
   // Two layers at each border belong to zones only.
   const Slab& upper = slabs.slab(1);
   for (const std::uint32_t layer : {14u, 15u, 16u, 28u, 29u, 0u})
-    CHECK_FALSE(upper.may_work_in(at_height(layer)));
-  for (const std::uint32_t layer : {17u, 27u}) CHECK(upper.may_work_in(at_height(layer)));
+    CHECK_FALSE(upper.workable().hold(at_height(layer)));
+  for (const std::uint32_t layer : {17u, 27u}) CHECK(upper.workable().hold(at_height(layer)));
   // Layers 14 and 15 are one brick, of which nobody is the owner.
   CHECK_FALSE(upper.holds_brick_of(at_height(15)));
   CHECK(upper.holds_brick_of(at_height(16)));
