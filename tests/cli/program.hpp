@@ -31,10 +31,10 @@ class Folder {
 struct Outcome {
   int exit_code = 0;  // 128 + signal if a signal killed it
   std::string out, err;
-  double peak_bytes = 0;  // of memory that it has held
+  double peak_bytes = 0;  // the most memory that it held
 };
 
-// A program running in a folder: `campaign`, or whatever the first word names by its path.
+// A program that runs in a folder: `campaign`, or the one that the first word names by its path.
 class Program {
  public:
   Program(const Folder& folder, std::vector<std::string> words);
@@ -73,7 +73,7 @@ double number(const Folder& folder, const std::string& sql);
 // Changes the store behind the program's back.
 void sabotage(const Folder& folder, const std::string& sql);
 
-// The same, as if a program without digests had written it: nothing says that it was changed.
+// The same, as if a program without digests had written it, so that the change goes unseen.
 void change(const Folder& folder, const std::string& sql);
 
 }  // namespace haff::tests

@@ -94,7 +94,7 @@ void wait_for_running(const Folder& folder, const std::string& partition, int co
 
 namespace {
 
-// Waits until a query of a shard in the user's folder counts so many.
+// Waits until a query of a shard in the user's folder gives this number.
 void wait_for_count(const Folder& folder, const std::string& shard, const std::string& query,
                     int count) {
   const std::string ask = "sqlite3 shards/" + shard + ".db \"" + query + "\"";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A campaign that is divided among shards or the tasks of a cluster, and what must come home of it.
+// A campaign that is divided among shards or the tasks of a cluster, and checks of what comes home.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@ namespace haff::tests {
 // are found in later rounds.
 extern const std::string grid_with_everything;
 
-// Some seconds of work in six jobs that store often, for what is to be disturbed.
+// Some seconds of work in six jobs that store often, for runs that are to be disturbed.
 extern const std::string long_grid;
 
 // A grid of a few small gases, with effects, observables and cadences drawn at random.
@@ -35,16 +35,16 @@ Outcome submit(const Folder& folder, const std::string& time,
 // The number of Slurm's job with the tasks of this round.
 std::string tasks_job(const Folder& folder, int round);
 
-// Waits until so many tasks of a partition run. Slurm keeps one that was requeued for two minutes.
+// Waits until this many tasks of a partition run. Slurm keeps a requeued task for two minutes.
 void wait_for_running(const Folder& folder, const std::string& partition, int count);
 
-// Waits until so many states are in the shard at home: its task has put it back.
+// Waits until the shard at home holds this many states, since its task has put it back.
 void wait_for_states(const Folder& folder, const std::string& shard, int count);
 
 // The same until there is a state of a cooling job that is not done.
 void wait_for_cooling(const Folder& folder, const std::string& shard);
 
-// Starts the command and kills it after some milliseconds. Whether it still ran then.
+// Starts the command and kills it after some milliseconds. Returns whether it still ran then.
 bool kill_after(const Folder& folder, std::vector<std::string> words,
                 std::chrono::milliseconds time);
 
@@ -55,11 +55,11 @@ int wander(unsigned seed);
 // The ends of the logs of all tasks and merges, for messages.
 std::string logs(const Folder& folder);
 
-// All jobs are done, the rows are these, in every bit, and the store is sound.
+// Checks that all jobs are done, that the rows are these in every bit, and that the store is sound.
 void check_home(const Folder& folder, const std::string& expected);
 
-// The stretches of tau of cooling jobs that two attempts have both computed and both stored, as the
-// logs of the tasks tell, a line each: nothing, if only what was lost was computed again.
+// The stretches of tau of cooling jobs that two attempts have both computed and stored, a line
+// each, from the logs of the tasks. There are none if only lost work was computed again.
 std::string computed_twice(const Folder& folder);
 
 }  // namespace haff::tests

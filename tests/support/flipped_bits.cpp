@@ -23,8 +23,8 @@ namespace haff::tests {
 
 namespace {
 
-// Small gases, so that rows are as much of the file as states. Every effect, and every observable
-// of equal spheres. tau_max goes before it.
+// Small gases, so that rows take as much of the file as states: every effect, and every observable
+// of equal spheres. tau_max is to be put in front.
 constexpr const char* every_effect_and_observable = R"(
   "n": 0.05, "N": 40, "seeds": 1, "equilibrate": 20,
   "observables": ["temperature", "laguerre"],
@@ -52,7 +52,7 @@ void write(const std::filesystem::path& path, const std::string& bytes) {
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-// Every value of every table, and the schema; what cannot be read says so.
+// Every value of every table, and the schema; an unreadable store gives the error instead.
 std::string said(const std::filesystem::path& path) {
   try {
     const SQLite::Database store(path.string(), SQLite::OPEN_READONLY);
@@ -110,8 +110,9 @@ Bit anywhere(const std::string& bytes, std::mt19937_64& random) {
   return {byte, static_cast<unsigned>(random() % 8), "anywhere"};
 }
 
-// A value as it stands in the file, a piece of it where it is long: SQLite writes the first byte of
-// a real first, texts and BLOBs as they are. Empty for what is too short to be found by.
+// A value as it stands in the file, or a piece of it where it is long: SQLite writes a real with
+// its first byte first, and texts and BLOBs as they are. Empty for values that are too short to be
+// found.
 std::string form_in_file(const SQLite::Column& value, std::mt19937_64& random) {
   constexpr std::size_t enough = 8, piece = 24;
   if (value.isFloat()) {
@@ -128,12 +129,12 @@ std::string form_in_file(const SQLite::Column& value, std::mt19937_64& random) {
   return bytes.size() <= piece ? bytes : bytes.substr(random() % (bytes.size() - piece), piece);
 }
 
-// What means and figures are made of, or a job goes on from.
+// The tables from which means and figures are made, or a job goes on.
 constexpr std::array tables{
     "samples",         "samples",           "profiles", "fields",     "snapshots",
     "snapshot_chunks", "checkpoint_chunks", "results",  "invariants", "jobs"};
 
-// A bit of a value of a random row; nothing where its bytes stand in more places than one.
+// A bit of a value in a random row; nothing where its bytes stand in several places.
 std::optional<Bit> of_a_value(SQLite::Database& store, const std::string& bytes,
                               std::mt19937_64& random) {
   const std::string table = tables[random() % tables.size()];
@@ -210,8 +211,8 @@ class Flips {
     CAPTURE(bit.where);
     CAPTURE(bit.byte);
     CAPTURE(bit.number);
-    // A run on it may end well, if what was wrong is computed again, or stops at it; it never ends
-    // well with other rows.
+    // A run may end well, if it computes the wrong rows again, or it may stop at them; it never
+    // ends well with other rows.
     const bool is_found =
         is_half_run_ && random_() % 2 == 0
             ? exit_code({"run"}) != 0 || exit_code({"verify"}) != 0 || rows(folder_) == expected_
@@ -219,7 +220,7 @@ class Flips {
     CAPTURE(said_);
     CHECK(is_found);
     result.found += is_found ? 1 : 0;
-    // Where the bit is one of SQLite's own, the way out is a backup.
+    // Where the bit is one of SQLite's own, only a backup helps.
     if (of != BitsOf::values) return;
     const bool is_mended = mend();
     CAPTURE(said_);
@@ -227,7 +228,7 @@ class Flips {
     result.mended += is_mended ? 1 : 0;
   }
 
-  // As verify advises: whether all rows are in the end those of the store without the flip.
+  // Mends as verify advises. Returns whether all rows are then those of the store without the flip.
   bool mend() {
     exit_code({"verify", "--repair"});
     exit_code({"retry"});

@@ -24,7 +24,7 @@ inline engine::State state_of(double box, std::vector<engine::Vector> positions,
   return state;
 }
 
-// Kinetic energy of all, in true units.
+// Kinetic energy of all particles, in true units.
 inline double energy(const engine::Simulation& gas) {
   double sum = 0;
   for (const engine::Vector& v : gas.velocities()) sum += 0.5 * engine::dot(v, v);

@@ -22,7 +22,7 @@ class Normal {
  public:
   explicit Normal(std::uint64_t seed) : state_(seed) {}
 
-  // Between 0 and 1, neither of which it is.
+  // Above 0 and below 1.
   double uniform() { return (static_cast<double>(random_bits(state_) >> 11) + 0.5) * 0x1p-53; }
 
   double operator()() {

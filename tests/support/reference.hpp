@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A naive reference engine: every pair, every image in reach, at every event. Slow and evidently
-// right; the real engine must agree with it event by event and bit by bit.
+// A naive reference engine: every pair, every image in reach, at every event. It is slow and
+// evidently right; the real engine must agree with it event by event and bit by bit.
 //
 // It shares the definition of a contact, a collision and a synchronization (engine/collision,
 // engine/particles/synchronize.hpp), the restitution models and the actions, and nothing else: no
@@ -48,7 +48,7 @@ class ReferenceOf {
       // they are out of reach.
       const double horizon = clock_.now + 0.125 * box_.side / std::sqrt(fastest);
       const int images = box_.side > 5 ? 1 : box_.d == 2 ? 9 : 27;
-      // Time, then the smaller, then the larger id: the order of events that share a time.
+      // Events are ordered by time, then by the smaller and by the larger id.
       auto first = std::tuple(engine::never, 0u, 0u);
       std::size_t a = 0, b = 0;
       for (std::size_t i = 0; i < particles_.size(); ++i)

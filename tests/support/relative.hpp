@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Relative differences, to say what is allowed. doctest's Approx(x).epsilon(eps) allows
-// eps (1 + |x|): of a small x far more than the eps that stands there.
+// Relative differences, to say which are allowed. doctest's Approx(x).epsilon(eps) allows
+// eps (1 + |x|), which for a small x is far more than eps says.
 #pragma once
 
 #include <cmath>

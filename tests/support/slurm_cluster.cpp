@@ -33,7 +33,7 @@ std::string host_name() {
   return name.data();
 }
 
-// What the shell prints, and how it ends.
+// The output of a shell command, and its exit code.
 std::pair<std::string, int> shell_output(const std::string& command) {
   std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return {"", -1};
@@ -54,7 +54,7 @@ bool within(std::chrono::seconds time, const auto& condition) {
   return true;
 }
 
-// Ports of this process: two clusters at a time must not meet.
+// Ports of this process, so that two clusters at a time do not meet.
 int port(int number) {
   return 20000 + static_cast<int>(getpid() % 4000) * 8 + number;
 }

@@ -15,8 +15,7 @@ namespace haff::tests {
 
 class SlurmCluster {
  public:
-  // Starts it and waits until both nodes are idle. Fails the test if that does not come about, with
-  // the logs.
+  // Starts it and waits until both nodes are idle. Otherwise the test fails and shows the logs.
   explicit SlurmCluster(const std::filesystem::path& folder);
   ~SlurmCluster();
   SlurmCluster(const SlurmCluster&) = delete;

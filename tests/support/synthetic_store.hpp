@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Stores that look like a campaign's, made from theory and noise: for what reads results and does
-// not care where they come from.
+// Stores that look like those of a campaign, made from theory and noise, for tests of code that
+// reads results.
 #pragma once
 
 #include <algorithm>
@@ -70,7 +70,7 @@ class SyntheticGas {
   tests::Normal gaussian_{job_.seed * 1000003 + static_cast<std::uint64_t>(*job_.e * 1e6)};
 };
 
-// What is seen of such a gas where profiles are taken: incompressible theory, with errors.
+// The correlations of such a gas where profiles are taken: incompressible theory, with errors.
 class SyntheticProfiles {
  public:
   SyntheticProfiles(const schema::Job& job, double tau_max) : job_(job), tau_max_(tau_max) {}

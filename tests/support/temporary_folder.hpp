@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A folder of a test's own, gone when the test is.
+// A folder of a test's own, removed at its end.
 #pragma once
 
 #include <cstdlib>

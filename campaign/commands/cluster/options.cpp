@@ -48,9 +48,9 @@ CLI::App* add_merge(CLI::App& app, MergeOptions& options) {
       ->required();
   command->footer(examples(R"(  campaign merge shards/shard-*.db
 
-In any order, as often as you like, of shards that have not ended, and while a run is on: rows that
-are here already are compared, in every bit, and the others are added. Exit code 1 if a shard is
-refused: it is of another campaign, damaged, or contradicts what is known.)"));
+Shards may be merged in any order, any number of times, before they have ended, and while a run is
+on. Rows that are here already are compared, in every bit, and the others are added. Exit code 1 if a
+shard is refused: it is of another campaign, damaged, or contradicts what the store has.)"));
   return command;
 }
 
@@ -79,7 +79,9 @@ CLI::App* add_submit(CLI::App& app, SubmitOptions& options) {
       ->type_name("C")
       ->capture_default_str();
   add_duration(command, "--time", cluster.seconds, "Time limit of a task: 45m, 4h, 1d")->required();
-  command->add_option("--rounds", cluster.rounds, "Rounds at most: what is left is submitted again")
+  command
+      ->add_option("--rounds", cluster.rounds,
+                   "At most this many rounds: work that is left is submitted again")
       ->check(CLI::Range(0, most_rounds))
       ->type_name("R")
       ->capture_default_str();

@@ -100,7 +100,7 @@ CLI::App* add_plot(CLI::App& app, PlotOptions& options) {
       ->check(CLI::IsMember({"x", "y"}))
       ->type_name("AXES")
       ->delimiter(',');
-  command->add_flag("--theory", question.theory, "With the theory that is known of it");
+  command->add_flag("--theory", question.theory, "With the lines of theory for these gases");
   const auto set_difference = [&question](const std::string& text) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
@@ -124,7 +124,7 @@ CLI::App* add_plot(CLI::App& app, PlotOptions& options) {
                                          "Picture or table, by its suffix .svg, .png or .csv; "
                                          "without, the picture is printed as text")
       ->type_name("FILE");
-  command->add_flag("--list", options.list, "What the store has to be drawn");
+  command->add_flag("--list", options.list, "List what can be drawn from the store");
   command->footer(examples(R"(  campaign plot --list
   campaign plot a2 --against tau --by e --theory
   campaign plot energy --log y --by n --where "d = 3 AND N = 8000" --out energy.svg
@@ -157,7 +157,7 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   auto* all =
       command->add_flag("--all", options.all, "All snapshots, one after the other: a trajectory");
   all->excludes(at)->excludes(at_time);
-  command->add_flag("--list", options.list, "What there is to export")
+  command->add_flag("--list", options.list, "List what can be exported")
       ->excludes(at)
       ->excludes(at_time)
       ->excludes(all);
@@ -175,7 +175,7 @@ Units are sigma, m and E(0).)"));
 }
 
 CLI::App* add_cost(CLI::App& app, CostRequest& options) {
-  auto* command = app.add_subcommand("cost", "What accuracy costs in time");
+  auto* command = app.add_subcommand("cost", "Show what accuracy costs in CPU time");
   command->add_option("--out", options.out, "Folder to write to")
       ->type_name("DIR")
       ->capture_default_str();
@@ -211,7 +211,8 @@ Exit code 1 if no cooling run is done: it then says what to plan.)"));
 }
 
 CLI::App* add_report(CLI::App& app, ReportOptions& options) {
-  auto* command = app.add_subcommand("report", "The store as a page to look at, in one file");
+  auto* command =
+      app.add_subcommand("report", "Write the store as a page for any browser, in one file");
   command->add_option("--out", options.out, "Folder to write report.html to")
       ->type_name("DIR")
       ->capture_default_str();
@@ -243,8 +244,8 @@ never writes the store.)"));
 
 CLI::App* add_theory(CLI::App& app, TheoryOptions& options) {
   auto* command = app.add_subcommand("theory", "Print a theory curve: table, CSV or JSON");
-  command->add_option("CURVE", options.curve, "Which one; --list names them")->type_name("NAME");
-  command->add_flag("--list", options.list, "The curves, what they are functions of");
+  command->add_option("CURVE", options.curve, "The curve; --list names them")->type_name("NAME");
+  command->add_flag("--list", options.list, "List the curves and what they are functions of");
   command->add_option("--d", options.d, "Dimension")
       ->check(CLI::IsMember({2, 3}))
       ->type_name("2|3")
@@ -272,13 +273,17 @@ CLI::App* add_theory(CLI::App& app, TheoryOptions& options) {
       ->add_option("--effects", options.effects, "As in a grid: restitution, thermostat, shuffle")
       ->type_name("JSON")
       ->capture_default_str();
-  command->add_option("--particles", options.particles, "Of a direct simulation computed now")
+  command
+      ->add_option("--particles", options.particles,
+                   "Particles of a direct simulation that is computed now")
       ->check(CLI::Range(2, 100'000'000))
       ->capture_default_str();
-  command->add_option("--realizations", options.realizations, "Likewise; errors fall with its root")
+  command
+      ->add_option("--realizations", options.realizations,
+                   "Its realizations; errors fall as one over their square root")
       ->check(CLI::Range(2, 1'000'000))
       ->capture_default_str();
-  command->add_option("--seed", options.seed, "Likewise")->capture_default_str();
+  command->add_option("--seed", options.seed, "Its seed")->capture_default_str();
   add_format(*command, options.format);
   command->footer(R"(Examples:
   campaign theory --list
@@ -295,11 +300,11 @@ VALUES are a number, a list 1,2,5 or a range FROM:TO:STEP. Columns:
                     error: from a table at e = 0.7, 0.8, 0.85, 0.865, 0.9, 0.95, 0.98, 1, else
                     computed now (--particles, --realizations; some ten seconds)
   energy_equation   with velocity correlations; non_gaussian: a_2 taken into account as well
-chi, the pair correlation at contact, is Carnahan and Starling's (disks: Henderson's). It is in the
-lengths, and so in every curve with correlations; in collision_rate and Z; and in the unit of time of
-laws that have one. The collision rate of elastic spheres is higher by 0.006, 0.02, 0.08, 0.24 and
+chi, the pair correlation at contact, is Carnahan and Starling's (disks: Henderson's). It enters the
+lengths, and so every curve with correlations, collision_rate and Z, and the unit of time of laws
+that have one. The collision rate of elastic spheres is higher by 0.006, 0.02, 0.08, 0.24 and
 0.31 % at n = 0.05, 0.1, 0.2, 0.4 and 0.5.
-No store is read. A shuffle changes nothing in a homogeneous gas: its theory is that without.)");
+No store is read. A shuffle changes nothing in a homogeneous gas: theory is the same without it.)");
   return command;
 }
 

@@ -73,12 +73,12 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   });
   add_duration(
       command, "--max-time", options.max_seconds,
-      "Stop after this time: 90s, 45m, 1h30m; take no job of which nothing could be stored "
-      "by then");
+      "Stop after this time: 90s, 45m, 1h30m; a job that could store nothing by then is not begun");
   add_duration(command, "--budget", options.cpu_budget,
                "Spend at most this CPU time, all workers together");
-  add_where(command, options.where,
-            "Only jobs of which this condition holds, and what they start from");
+  add_where(
+      command, options.where,
+      "Only jobs for which this condition holds, and the equilibrations that they start from");
   command
       ->add_option("--order", options.order,
                    "Take jobs in this order, terms in SQL: \"seed, e DESC\"")
@@ -86,7 +86,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
       ->type_name("SQL");
   command
       ->add_option("--log-json", options.log_json,
-                   "Append what happens to this file, a line of JSON an event")
+                   "Append to this file one line of JSON for each event")
       ->type_name("FILE");
   command
       ->add_option("--on-finish", options.on_finish,
@@ -114,7 +114,7 @@ Ctrl-C stores what can be stored and leaves; the same command goes on.)"));
 }
 
 CLI::App* add_status(CLI::App& app, StatusOptions& options) {
-  auto* command = app.add_subcommand("status", "Jobs, progress, tau_c so far, failures");
+  auto* command = app.add_subcommand("status", "Show jobs, progress, tau_c so far and failures");
   const auto set_watch = [&options](const std::string& text) {
     options.watch_every = text.empty() ? default_watch_every : seconds_from_text(text).value_or(0);
     if (!(*options.watch_every >= least_watch_every))
@@ -122,9 +122,9 @@ CLI::App* add_status(CLI::App& app, StatusOptions& options) {
           "--watch", "'" + text + "' is no duration of 0.1 s or more; expected e.g. 5s or 1m");
   };
   command
-      ->add_option_function<std::string>("--watch", set_watch,
-                                         "Again every so often, 2 s if no time is given, until "
-                                         "Ctrl-C")
+      ->add_option_function<std::string>(
+          "--watch", set_watch,
+          "Print it again and again, every 2 s unless a time is given, until Ctrl-C")
       ->expected(0, 1)
       ->type_name("[TIME]");
   command->footer(examples(R"(  campaign status
@@ -136,7 +136,7 @@ CLI::App* add_status(CLI::App& app, StatusOptions& options) {
 
 CLI::App* add_explain(CLI::App& app, ExplainCommand& options) {
   auto* command = app.add_subcommand(
-      "explain", "Why a job is where it is: what it waits for, what was tried, what comes next");
+      "explain", "Explain where a job stands: what it waits for, what was tried, what comes next");
   command->add_option("JOB", options.job_id, "The job_id, as in the table jobs")
       ->type_name("NUMBER")
       ->required();

@@ -24,10 +24,11 @@ CLI::App* add_verify(CLI::App& app, VerifyOptions& options) {
   campaign verify --repair && campaign run
   campaign verify --recompute 12 --repair
 
-Exit code 1: something is wrong. Each row has a digest since it was written, so that any bit that has
-flipped since is found. --recompute costs the CPU time of the jobs, and finds what was wrong when it
-was written; it changes nothing. --repair changes only what is wrong, and says what it changed. Both
-together replace what a second and a third computation, which must agree, find to be another.)"));
+Exit code 1 if something is wrong. Each row has a digest from the moment when it is written, so that
+any bit that flips later is found. --recompute takes the CPU time of the jobs, finds rows that were
+wrong when they were written, and changes nothing. --repair changes only what is wrong, and says what
+it changed. Both together replace rows that differ from a second and a third computation, which must
+agree.)"));
   return command;
 }
 
@@ -52,9 +53,10 @@ CLI::App* add_cancel(CLI::App& app, CancelOptions& options) {
   campaign cancel --where "n = 0.6" --delete
 
 Planned jobs go. Those that were begun end where they are stored, and the next run completes them
-there. Done ones stay unless --delete is given. Equilibrations go with the last job that starts from
-them, and so do targets of these gases. What a worker or a shard has is left alone and named, with exit
-code 1. In the condition, N is the number of particles and roughness.beta the parameter of an effect.)"));
+there. Done jobs stay unless --delete is given. Equilibrations go with the last job that starts from
+them, and so do targets of these gases. Jobs that a worker or a shard has are left alone and named,
+with exit code 1. In the condition, N is the number of particles and roughness.beta the parameter of
+an effect.)"));
   return command;
 }
 
@@ -79,8 +81,8 @@ CLI::App* add_upgrade(CLI::App& app, UpgradeCommand&) {
   command->footer(examples(R"(  campaign backup before.db && campaign upgrade
 
 An older store can be read as it is; to plan and run in it takes this command, while nothing runs.
-It is one transaction: cut off, it has changed nothing. Older programs cannot use the store after
-it.)"));
+It is one transaction, and changes nothing if it is cut off. Older programs cannot use the store
+afterwards.)"));
   return command;
 }
 
