@@ -29,7 +29,7 @@ CLI::Option* add_duration(CLI::App* command, const std::string& name, Seconds& s
   return command->add_option_function<std::string>(name, set, what)->type_name("TIME");
 }
 
-// An option --where: a condition in SQL over the table jobs (schema/store/choice.hpp).
+// An option --where: a condition in SQL over the table jobs (schema/store/planning/choice.hpp).
 CLI::Option* add_where(CLI::App* command, std::string& where, const std::string& what);
 
 // The complaint about an empty text of an option that may not be empty: CLI11 takes it for one that

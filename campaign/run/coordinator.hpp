@@ -24,7 +24,7 @@ struct RunOptions {
   std::filesystem::path log_json;     // events go here as lines of JSON; empty: nowhere
   std::string on_finish;              // a command for the shell, given at the end; empty: none
   bool json = false;                  // print what came of it as JSON
-  std::string where, order;           // which jobs, in which order (schema/store/choice.hpp)
+  std::string where, order;  // which jobs, in which order (schema/store/planning/choice.hpp)
 };
 
 // What ended a round before its work was done.

@@ -32,9 +32,10 @@ std::optional<double> least_seconds_needed(const schema::Selection& store);
 
 struct WorkerOptions {
   std::optional<Deadline> deadline =
-      {};                              // no job is taken of which nothing could be stored by then
-  ThreadShare share = {};              // threads for a job
-  std::string where = {}, order = {};  // which jobs, and in which order (schema/store/choice.hpp)
+      {};                  // no job is taken of which nothing could be stored by then
+  ThreadShare share = {};  // threads for a job
+  std::string where = {},
+              order = {};  // which jobs, and in which order (schema/store/planning/choice.hpp)
 };
 
 // Works on the store; reports go to this file descriptor. Stops in order on the signals of

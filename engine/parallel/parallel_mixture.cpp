@@ -16,11 +16,11 @@ namespace haff::engine::HWY_NAMESPACE {
 
 std::unique_ptr<EngineVariant> mixture_on_threads(const Model& model, const State& start,
                                                   const Threads& threads) {
-  TwoSpecies geometry(model, start);
+  const TwoSpecies geometry(model, start);
   if (model.effects.contains("roughness"))
-    return on_threads<TwoSpecies>(RoughCollision(model, std::move(geometry)), start, threads);
-  return on_threads<TwoSpecies>(SmoothCollision(AnyRestitutionModel(model), std::move(geometry)),
-                                start, threads);
+    return on_threads<TwoSpecies>(RoughCollision(model, geometry), start, threads);
+  return on_threads<TwoSpecies>(SmoothCollision(AnyRestitutionModel(model), geometry), start,
+                                threads);
 }
 
 }  // namespace haff::engine::HWY_NAMESPACE
