@@ -3,7 +3,6 @@
 // The program `campaign`. Results go to stdout; progress and logs to stderr.
 #include <fmt/format.h>
 
-#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -38,15 +37,6 @@
 #include "campaign/run/worker.hpp"
 #include "schema/error.hpp"
 #include "schema/grid/grid.hpp"
-
-// Highway's shared library measures the resolution of the clock whenever it is loaded, for
-// benchmarks that are not ours: 3 ms, a third of what a short command takes. The linker lets the
-// program's own function of this name take the place of the library's.
-namespace hwy::platform {
-std::uint64_t TimerResolution() {
-  return 1;
-}
-}  // namespace hwy::platform
 
 using namespace haff;
 using namespace haff::campaign;
