@@ -106,17 +106,19 @@ class Export {
     return std::nullopt;
   }
 
+  // A state is stored where the gas is synchronized: at the first such moment from checkpoint_every
+  // on, and at the last one of the run.
   std::string why_no_state() const {
     const double period = engine::synchronization_period;
-    const std::string first =
-        number_text(period * std::max(1.0, std::ceil(row_.checkpoint_every / period)));
     if (row_.tau_max < period)
       return fmt::format(
           "states are stored at multiples of tau = {}, and it ends at tau = {}; list "
           "the moments of interest in the grid's \"snapshots_at\"",
           number_text(period), number_text(row_.tau_max));
-    return fmt::format("run it at least to its first checkpoint, tau = {}, with: {}", first,
-                       command_text("run", store_.path()));
+    const double first = std::min(std::max(1.0, std::ceil(row_.checkpoint_every / period)),
+                                  std::floor(row_.tau_max / period));
+    return fmt::format("run it at least to its first checkpoint, tau = {}, with: {}",
+                       number_text(first * period), command_text("run", store_.path()));
   }
 
   std::string what_there_is() const {

@@ -110,6 +110,11 @@ TEST_CASE("export: what there is not is bad input") {
   CHECK(early.exit_code == 2);
   CHECK(early.err.find("no state of job 2") != std::string::npos);
   CHECK(early.err.find("with: campaign run") != std::string::npos);
+  // Where checkpoint_every is beyond its end, the first state is the last one.
+  change(folder, "UPDATE jobs SET checkpoint_every = 1000");
+  const Outcome late = campaign(folder, {"export", "1"});
+  CHECK(late.err.find("first checkpoint, tau = 1000") == std::string::npos);
+  CHECK(late.err.find("first checkpoint, tau = ") != std::string::npos);
 }
 
 TEST_CASE("export: a job that ends before its first checkpoint has only snapshots, and says so") {
