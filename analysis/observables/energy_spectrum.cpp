@@ -14,9 +14,6 @@
 namespace haff::analysis {
 namespace {
 
-constexpr int most_cells = 128;     // 17 MB an array
-constexpr double smallest_box = 8;  // [sigma]: two shells
-
 // sum_i p_i p_i, what |p(k)|^2 would be without correlations.
 using Tensor = std::array<std::array<double, 3>, 3>;
 
@@ -35,10 +32,10 @@ EnergySpectrum energy_spectrum(std::span<const Vector> position, std::span<const
                                std::span<const double> mass, double box, int d) {
   const std::size_t particles = position.size();
   if (particles == 0 || velocity.size() != particles ||
-      (!mass.empty() && mass.size() != particles) || !(box >= smallest_box))
+      (!mass.empty() && mass.size() != particles) || !(box >= smallest_spectral_box))
     throw std::invalid_argument(
         "an energy spectrum needs as many velocities as positions and a box of 8 sigma");
-  const Mesh mesh{.box = box, .cells = transform_cells(box, most_cells), .d = d};
+  const Mesh mesh{.box = box, .cells = transform_cells(box), .d = d};
   const auto axes = static_cast<std::size_t>(d);
   const auto momentum = [&](std::size_t i, std::size_t axis) {
     return mass.empty() ? velocity[i][axis] : mass[i] * velocity[i][axis];

@@ -36,8 +36,9 @@ Fourier::Fourier(const Mesh& mesh)
   if (!forward_ || !backward_) throw std::bad_alloc();
 }
 
-int transform_cells(double box, int most) {
-  int cells = std::max(1, std::min(most, static_cast<int>(box)));
+int transform_cells(double smallest_cells) {
+  constexpr double most = 128;
+  int cells = std::max(1, static_cast<int>(std::min(most, smallest_cells)));
   while (!is_smooth(cells)) --cells;
   return cells;
 }

@@ -66,8 +66,11 @@ class Fourier {
   Plan forward_, backward_;
 };
 
-// How many cells along an axis transforms are done with: at most `most`, no smaller than a
-// diameter, and a number FFTW is fast at (2^a 3^b 5^c).
-int transform_cells(double box, int most);
+// The side of the smallest box [sigma] with two shells of wave numbers.
+constexpr double smallest_spectral_box = 8;
+
+// The number of cells along an axis of a mesh for transforms, from the number of smallest cells
+// that fit: at most 128 (then an array takes 17 MB), and one that FFTW is fast at (2^a 3^b 5^c).
+int transform_cells(double smallest_cells);
 
 }  // namespace haff::analysis

@@ -11,7 +11,7 @@
 namespace haff::analysis {
 namespace {
 
-constexpr double smallest_box = 4;  // [sigma]
+constexpr double smallest_pair_box = 4;  // [sigma]
 
 // (4 - 1) / 0.05 is 60 bins, however it is rounded.
 constexpr double rounding = 1e-9;
@@ -76,7 +76,7 @@ class Counts {
 };
 
 void must_fit(double box) {
-  if (!(box >= smallest_box))
+  if (!(box >= smallest_pair_box))
     throw std::invalid_argument("a pair distribution needs a box of 4 sigma");
 }
 

@@ -12,17 +12,11 @@
 #include "analysis/observables/sharing.hpp"
 
 namespace haff::analysis {
-namespace {
-
-constexpr int most_cells = 128;
-constexpr double smallest_box = 8;  // [sigma]: two shells
-
-}  // namespace
 
 StructureFactor structure_factor(std::span<const Vector> position, double box, int d) {
-  if (position.empty() || !(box >= smallest_box))
+  if (position.empty() || !(box >= smallest_spectral_box))
     throw std::invalid_argument("a structure factor needs particles in a box of 8 sigma");
-  const Mesh mesh{.box = box, .cells = transform_cells(box, most_cells), .d = d};
+  const Mesh mesh{.box = box, .cells = transform_cells(box), .d = d};
   Fourier fourier(mesh);
   share_out(position, mesh, fourier.field(), [](std::size_t) { return 1.0; });
   fourier.forward();

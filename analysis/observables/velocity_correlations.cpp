@@ -12,8 +12,7 @@
 namespace haff::analysis {
 namespace {
 
-constexpr int most_cells = 128;     // 17 MB an array
-constexpr double smallest_box = 4;  // [cells]
+constexpr double fewest_cells = 4;  // along an axis
 
 using Modes = std::vector<std::complex<double>>;
 
@@ -131,10 +130,10 @@ double trace(const Fourier& fourier, const std::vector<Modes>& momentum, const M
 VelocityCorrelations velocity_correlations(std::span<const Vector> position,
                                            std::span<const Vector> velocity, double box,
                                            double k_max, int d, double cell) {
-  if (position.size() != velocity.size() || position.size() < 2 || !(box > smallest_box * cell))
+  if (position.size() != velocity.size() || position.size() < 2 || !(box > fewest_cells * cell))
     throw std::invalid_argument(
         "velocity correlations need as many positions as velocities and a box of 4 cells");
-  const Mesh mesh{.box = box, .cells = transform_cells(box / cell, most_cells), .d = d};
+  const Mesh mesh{.box = box, .cells = transform_cells(box / cell), .d = d};
   const auto size = static_cast<double>(mesh.size());
   const auto axes = static_cast<std::size_t>(d);
   const Shells shells(mesh);

@@ -13,7 +13,7 @@ namespace haff::campaign {
 namespace {
 
 // A gas as the views of the store have it, then its tau where it is a profile's.
-constexpr const char* gas =
+constexpr const char* gas_column_names =
     "d, n, particles, e, equilibrate, sample_every, effects, sample_at, start";
 constexpr std::size_t gas_columns = 9;
 
@@ -63,9 +63,9 @@ Observations samples_of(const schema::Reader& store, const Vocabulary& words, co
                         const std::string& x, const std::string& where) {
   const std::string variable = is_of_interval(y) ? at_middles(x) : x;
   return read(store,
-              fmt::format("SELECT {}, job_id, seed, code_version, tau, ({}), ({}) FROM {}{}", gas,
-                          translated(variable, words), translated(y, words), sample_rows(words),
-                          condition(where, words)),
+              fmt::format("SELECT {}, job_id, seed, code_version, tau, ({}), ({}) FROM {}{}",
+                          gas_column_names, translated(variable, words), translated(y, words),
+                          sample_rows(words), condition(where, words)),
               false);
 }
 
@@ -74,16 +74,16 @@ Observations means_of(const schema::Reader& store, const Vocabulary& words, cons
   return read(store,
               fmt::format("SELECT {}, job_id, seed, code_version, 0, max({}), avg({}) FROM {}{} "
                           "GROUP BY job_id",
-                          gas, translated(x, words), translated(y, words), sample_rows(words),
-                          condition(where, words)),
+                          gas_column_names, translated(x, words), translated(y, words),
+                          sample_rows(words), condition(where, words)),
               false);
 }
 
 Observations profiles_of(const schema::Reader& store, const Vocabulary& words,
                          const std::string& profile, const std::string& where) {
   return read(store,
-              fmt::format("SELECT {}, tau, job_id, seed, code_version, x, x, value FROM {}{}", gas,
-                          profile_rows(words, profile), condition(where, words)),
+              fmt::format("SELECT {}, tau, job_id, seed, code_version, x, x, value FROM {}{}",
+                          gas_column_names, profile_rows(words, profile), condition(where, words)),
               true);
 }
 

@@ -31,7 +31,7 @@ Question profile(const char* y) {
   return {.y = y, .where = at_the_end, .theory = true, .theory_up_to = most_with_theory};
 }
 
-const std::vector<GeneralFigure> figures = {
+const std::vector<GeneralFigure> all_figures = {
     {"energy", "energy of translation", logarithmic(along_tau("energy"))},
     {"gamma", "decay rate", along_tau("gamma_ratio")},
     {"a2", "Laguerre coefficient a₂", along_tau("a2")},
@@ -74,7 +74,7 @@ const std::vector<GeneralFigure> figures = {
 }  // namespace
 
 std::span<const GeneralFigure> general_figures() {
-  return figures;
+  return all_figures;
 }
 
 }  // namespace haff::campaign

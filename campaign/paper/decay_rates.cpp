@@ -9,7 +9,7 @@
 namespace haff::campaign {
 namespace {
 
-constexpr Intervals intervals{.from = 4, .width = 3};
+constexpr Intervals of_noisy_rates{.from = 4, .width = 3};
 
 std::vector<double> times(double end) {
   constexpr int points = 200;
@@ -23,13 +23,14 @@ std::vector<double> times(double end) {
 Curve decay_rates(const MeanSeries& series, double end) {
   Curve curve = measured_curve(series);
   curve.realizations.clear();
-  add_interval_means(series, RunValue::gamma_ratio, intervals, end, curve);
+  add_interval_means(series, RunValue::gamma_ratio, of_noisy_rates, end, curve);
   curve.look = Look::symbols;
   return curve;
 }
 
 std::string intervals_note() {
-  return fmt::format(" From τ = {:g} on, means over Δτ = {:g}.", intervals.from, intervals.width);
+  return fmt::format(" From τ = {:g} on, means over Δτ = {:g}.", of_noisy_rates.from,
+                     of_noisy_rates.width);
 }
 
 Curve energy_equation_rates(double e, double n, double end, analysis::Velocities velocities) {

@@ -21,7 +21,8 @@
 namespace haff::campaign {
 namespace {
 
-constexpr double radius = 0.5;  // of species 1, if there are two [sigma]
+constexpr double radius_of_species_1 =
+    0.5;  // the other's is in proportion, if there are two [sigma]
 constexpr std::array<const char*, 2> elements{"H", "He"};
 
 // The box and its periods; disks lie in the middle of a layer one diameter high.
@@ -73,7 +74,8 @@ void write_xyz(const engine::State& state, const std::string& facts, std::ostrea
     const auto& v = state.velocity[place];
     const std::uint32_t id = state.id[place];
     const auto scaled = [&](double value) { return std::ldexp(value, -state.exponent); };
-    const double size = mixture ? radius * mixture->diameter_of(id) : radius;
+    const double size =
+        mixture ? radius_of_species_1 * mixture->diameter_of(id) : radius_of_species_1;
     fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {} {} {}",
                    elements.at(mixture && mixture->is_second(id) ? 1 : 0), r[0], r[1], r[2],
                    scaled(v[0]), scaled(v[1]), scaled(v[2]), size,

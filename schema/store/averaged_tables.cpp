@@ -14,12 +14,12 @@
 namespace haff::schema {
 namespace {
 
-struct Table {
+struct CopiedTable {
   const char* name;
   const char* rows;
 };
 
-constexpr Table tables[] = {
+constexpr CopiedTable tables[] = {
     {"mean_series", "SELECT * FROM mean_series"},
     {"mean_temperatures", "SELECT * FROM mean_temperatures"},
     {"mean_profiles", "SELECT * FROM mean_profiles"},
@@ -75,7 +75,7 @@ class NewTable {
   SQLite::Statement insert_;
 };
 
-void copy(const Reader& store, const Table& table, SQLite::Database& file) {
+void copy(const Reader& store, const CopiedTable& table, SQLite::Database& file) {
   Query rows = store.query(table.rows);
   NewTable copied(file, table.name, rows.columns());
   while (const auto row = rows.next()) copied.add(*row);
@@ -92,7 +92,7 @@ std::vector<std::byte> averaged_tables(const Reader& store,
   store.must_match_digests({Part::samples, Part::profiles, Part::results});
   SQLite::Database file(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   SQLite::Transaction transaction(file);
-  for (const Table& table : tables) copy(store, table, file);
+  for (const CopiedTable& table : tables) copy(store, table, file);
   for (const ComputedTable& table : beside) {
     NewTable computed(file, table.name, table.columns);
     for (const auto& row : table.rows) computed.add(row);

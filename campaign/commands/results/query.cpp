@@ -58,7 +58,7 @@ bool is_number(const schema::Value& value) {
   return std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value);
 }
 
-void print_csv(schema::Query& rows) {
+void print_rows_as_csv(schema::Query& rows) {
   const auto print = [](const auto& cells, const auto& text) {
     std::vector<std::string> fields;
     fields.reserve(cells.size());
@@ -69,7 +69,7 @@ void print_csv(schema::Query& rows) {
   while (const auto row = rows.next()) print(*row, csv_text);
 }
 
-void print_json(schema::Query& rows) {
+void print_rows_as_json(schema::Query& rows) {
   print_data("[");
   bool first = true;
   while (const auto row = rows.next()) {
@@ -83,7 +83,7 @@ void print_json(schema::Query& rows) {
   print_data(first ? "]\n" : "\n]\n");
 }
 
-void print_table(schema::Query& rows) {
+void print_rows_as_table(schema::Query& rows) {
   std::vector<Row> all;
   while (auto row = rows.next()) all.push_back(std::move(*row));
   std::vector<TextTable::Column> columns;
@@ -178,13 +178,13 @@ int query(const std::filesystem::path& path, const std::string& sql, RowFormat f
   look_at_digests(store, sql);
   switch (format) {
     case RowFormat::table:
-      print_table(rows);
+      print_rows_as_table(rows);
       break;
     case RowFormat::csv:
-      print_csv(rows);
+      print_rows_as_csv(rows);
       break;
     case RowFormat::json:
-      print_json(rows);
+      print_rows_as_json(rows);
       break;
   }
   return exit_complete;

@@ -12,17 +12,16 @@
 namespace haff::campaign {
 namespace {
 
-constexpr double restitution = densities_restitution;
-constexpr double short_times = 30;
+constexpr double short_until = 30;
 
 }  // namespace
 
 std::optional<Plot> figure_06(const Averages& averages) {
-  const auto chosen = choose_densities(averages, restitution, &MeanSeries::a2);
+  const auto chosen = choose_densities(averages, densities_restitution, &MeanSeries::a2);
   if (chosen.empty()) return std::nullopt;
   double end = 0;
   for (const MeanSeries& series : chosen) end = std::max(end, series.tau.back());
-  end = std::min(end, short_times);
+  end = std::min(end, short_until);
 
   Panel panel{.x = {.label = "{/:Italic τ}", .column = "tau", .low = 0, .high = end},
               .y = {.label = "{/:Italic a}_2", .column = "a2"},
@@ -38,9 +37,9 @@ std::optional<Plot> figure_06(const Averages& averages) {
     curve.error = series.a2.error;
     panel.curves.push_back(until(end, std::move(curve)));
   }
-  if (auto direct = direct_curve("a2", restitution, end))
+  if (auto direct = direct_curve("a2", densities_restitution, end))
     panel.curves.push_back(std::move(*direct));
-  panel.curves.push_back(first_order_curve("a2", restitution, end));
+  panel.curves.push_back(first_order_curve("a2", densities_restitution, end));
   // Room for the legend above all curves.
   const Range range = y_range(panel.curves);
   panel.y.low = range.low - 0.05 * range.width();

@@ -18,16 +18,16 @@
 namespace haff::campaign {
 namespace {
 
-constexpr double farthest = 6;  // r / (sigma sqrt(tau)) that is shown
+constexpr double farthest_scaled = 6;  // r / (sigma sqrt(tau)) that is shown
 
 Curve scaled(const MeanSeries& series, const MeanProfile& profile) {
   Curve curve = measured_curve(series);
   curve.name = fmt::format("{}, tau = {:g}", profile.name, profile.tau);
-  const double unit = std::pow(profile.tau, 1.5) / analysis::initial_temperature();
+  const double scale = std::pow(profile.tau, 1.5) / analysis::initial_temperature();
   for (std::size_t i = 0; i < profile.x.size(); ++i) {
     curve.x.push_back(profile.x[i] / std::sqrt(profile.tau));
-    curve.y.push_back(profile.mean.value[i] * unit);
-    curve.error.push_back(profile.mean.error[i] * unit);
+    curve.y.push_back(profile.mean.value[i] * scale);
+    curve.error.push_back(profile.mean.error[i] * scale);
   }
   curve.realizations.assign(curve.x.size(), profile.realizations);
   curve.look = Look::symbols;
@@ -81,16 +81,16 @@ std::optional<Plot> figure_10(const Averages& averages) {
 
   double end = 0;
   for (const auto& each : parallel) end = std::max(end, each.curve.x.back());
-  end = std::min(end, farthest);
+  end = std::min(end, farthest_scaled);
   Panel panel{
       .x = {.label = "{/:Italic r} / ({/:Italic σ} {/:Italic τ}^{ 1/2})",
             .column = "r_scaled",
             .low = 0,
             .high = end},
       .y = {.label = "{/:Italic G τ}^{3/2} {/:Italic m} / {/:Italic T}_0", .column = "G_scaled"}};
-  for (const auto& each : parallel) panel.curves.push_back(until(farthest, each.curve));
+  for (const auto& each : parallel) panel.curves.push_back(until(farthest_scaled, each.curve));
   for (const auto& each : perpendicular) {
-    panel.curves.push_back(until(farthest, each.curve));
+    panel.curves.push_back(until(farthest_scaled, each.curve));
     panel.curves.back().symbol = 6;
     panel.curves.back().legend = "";
   }

@@ -15,10 +15,8 @@
 namespace haff::campaign {
 namespace {
 
-constexpr double restitution = densities_restitution;
-
 Curve boltzmann(double end) {
-  Curve curve = direct_curve("gamma_ratio", restitution, end).value();  // tabulated
+  Curve curve = direct_curve("gamma_ratio", densities_restitution, end).value();  // tabulated
   curve.look = Look::dashed;
   return curve;
 }
@@ -43,11 +41,11 @@ Panel dilute(Panel panel) {
 }  // namespace
 
 std::optional<Plot> figure_12(const Averages& averages) {
-  const auto chosen = choose_densities(averages, restitution, &MeanSeries::gamma_ratio);
+  const auto chosen = choose_densities(averages, densities_restitution, &MeanSeries::gamma_ratio);
   if (chosen.empty()) return std::nullopt;
   // The early stage: until the densest gas has lost its homogeneity.
   const double crossover =
-      analysis::energy_equation_tau_c({.e = restitution, .n = chosen.back().n});
+      analysis::energy_equation_tau_c({.e = densities_restitution, .n = chosen.back().n});
   const double end = std::min(chosen.back().tau.back(), 10 * std::ceil(crossover / 10));
 
   Panel panel{.x = {.label = "{/:Italic τ}", .column = "tau", .low = 0, .high = end},
@@ -61,7 +59,7 @@ std::optional<Plot> figure_12(const Averages& averages) {
     curve.colour = shade(panel.curves.size(), chosen.size());
     for (const auto velocities :
          {analysis::Velocities::enskog_boltzmann, analysis::Velocities::gaussian}) {
-      theories.push_back(energy_equation_rates(restitution, series.n, end, velocities));
+      theories.push_back(energy_equation_rates(densities_restitution, series.n, end, velocities));
       theories.back().colour = curve.colour;
     }
     panel.curves.push_back(std::move(curve));

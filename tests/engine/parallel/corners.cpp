@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -38,22 +39,25 @@ void agrees(const Model& model, const State& start, double tau) {
   for (const unsigned slabs : {2u, 3u, 4u})
     ways.push_back(
         {.count = 1, .slabs = slabs, .window = (1 + 60 * random.uniform()) / start.particles()});
+  Simulation one(model, start);
+  std::vector<std::unique_ptr<Simulation>> divided;
   for (const Threads& way : ways) {
-    CAPTURE(way.count);
-    CAPTURE(way.slabs);
-    CAPTURE(way.window);
-    Simulation one(model, start);
-    Simulation several(model, start, SearchBackend::simd, way);
-    REQUIRE(several.windows());
-    while (one.collisions() < last) {
-      const double stretch = 1 + random.uniform() * static_cast<double>(count) / 3;
-      const auto stop = std::min(last, one.collisions() + static_cast<std::int64_t>(stretch));
-      one.run_to(stop);
-      several.run_to(stop);
-      check_same(one, several);
-    }
-    CHECK(several.windows()->count > 0);
+    divided.push_back(std::make_unique<Simulation>(model, start, SearchBackend::simd, way));
+    REQUIRE(divided.back()->windows());
   }
+  while (one.collisions() < last) {
+    const double stretch = 1 + random.uniform() * static_cast<double>(count) / 3;
+    const auto stop = std::min(last, one.collisions() + static_cast<std::int64_t>(stretch));
+    one.run_to(stop);
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      CAPTURE(ways[k].count);
+      CAPTURE(ways[k].slabs);
+      CAPTURE(ways[k].window);
+      divided[k]->run_to(stop);
+      check_same(one, *divided[k]);
+    }
+  }
+  for (const auto& several : divided) CHECK(several->windows()->count > 0);
 }
 
 // Sites of a simple cubic lattice, `side` along each axis, `spacing` apart.
