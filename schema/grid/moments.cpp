@@ -16,7 +16,7 @@ namespace haff::schema {
 
 namespace {
 
-constexpr int digits = 4;  // of a logarithmic moment
+constexpr int logarithmic_digits = 4;  // of a logarithmic moment
 
 // Moment k, 10^(k/per_decade). Its mantissa, from 1 to 10, never lies within 1e-8 of the middle
 // between two numbers of four digits, so that the last digits of std::pow do not decide how it is
@@ -26,7 +26,7 @@ double logarithmic(int per_decade, int k) {
   const double power = std::pow(10.0, static_cast<double>(k - decade * per_decade) / per_decade);
   std::array<char, 32> text;
   char* end = std::to_chars(text.data(), text.data() + text.size(), power, std::chars_format::fixed,
-                            digits - 1)
+                            logarithmic_digits - 1)
                   .ptr;
   *end++ = 'e';
   end = std::to_chars(end, text.data() + text.size(), decade).ptr;

@@ -24,8 +24,8 @@ using analysis::VelocityCorrelation;
 constexpr double moment = 50;         // tau of figure 9
 constexpr double nearest_pair = 4;    // sigma: nearer, cells of one sigma smooth what is measured
 constexpr double farthest_pair = 20;  // sigma: farther, there is little but noise
-constexpr double tolerance = 0.10;    // linear theory; of the root mean square, and of scaling
-constexpr double trend_at[] = {1, 2, 4};          // r / (sigma sqrt(tau))
+constexpr double theory_tolerance = 0.10;  // linear theory; of the root mean square, and of scaling
+constexpr double trend_at[] = {1, 2, 4};   // r / (sigma sqrt(tau))
 constexpr double ratio_at[] = {4.5, 10.5, 18.5};  // r [sigma]
 
 struct Part {
@@ -66,8 +66,8 @@ void add_deviation(const MeanSeries& series, const Part& part, const MeanProfile
   const Deviation deviation = deviation_of(series, part, profile);
   if (!std::isfinite(deviation.measured)) return;
   constexpr double bars = 2;  // 68 % to 95 %
-  const auto judgement =
-      judge(deviation.measured, bars * deviation.chance, 0, {{"no correlations", 1}}, tolerance);
+  const auto judgement = judge(deviation.measured, bars * deviation.chance, 0,
+                               {{"no correlations", 1}}, theory_tolerance);
   table.push_back({.claim = "correlations",
                    .quantity = fmt::format("{} at τ = {:g}: root mean square difference, of {}",
                                            part.symbol, profile.tau, part.symbol),
@@ -155,8 +155,8 @@ void add_collapse(const MeanSeries& series, const Part& part, Table& table) {
        .value = spread->ours,
        .reference = 0,
        .source = of_the_paper,
-       .criterion = fmt::format("{:g}", tolerance),
-       .holds = spread->ours <= tolerance,
+       .criterion = fmt::format("{:g}", theory_tolerance),
+       .holds = spread->ours <= theory_tolerance,
        .note = fmt::format("{:g} ≤ τ ≤ {:g}, {:.1f} ≤ r/(σ√τ) ≤ {:.1f}, N = {}; incompressible "
                            "theory itself {:.2f}",
                            scaling_from, scaling_until, spread->from, spread->until,
@@ -179,8 +179,8 @@ void add_collapse(const MeanSeries& series, const Part& part, Table& table) {
                      .value = ratio,
                      .reference = 1,
                      .source = "scaling",
-                     .criterion = fmt::format("± {:g}", tolerance),
-                     .holds = std::abs(ratio - 1) <= tolerance,
+                     .criterion = fmt::format("± {:g}", theory_tolerance),
+                     .holds = std::abs(ratio - 1) <= theory_tolerance,
                      .note = fmt::format("incompressible theory {:.2f}",
                                          scaled_theory(last.tau) / scaled_theory(first.tau))});
   }

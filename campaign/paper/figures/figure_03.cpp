@@ -22,16 +22,16 @@ namespace {
 
 constexpr double restitution = 0.80;
 constexpr std::array stages = {0.0, 0.5, 1.0, 1.5, 2.0, 3.0};  // tau / tau_c
-constexpr double fastest = 4.2;      // c beyond which noise is all there is
-constexpr double rarest = 1e-7;      // rho
-constexpr double ratio_until = 3.3;  // c, of the inset
+constexpr double fastest_shown = 4.2;  // c beyond which noise is all there is
+constexpr double rarest = 1e-7;        // rho
+constexpr double ratio_until = 3.3;    // c, of the inset
 
 Curve gaussian() {
   Curve curve{.name = "Gaussian", .legend = "exp(−{/:Italic c}^2)", .source = Source::theory};
   curve.width = 1.6;
   constexpr int points = 100;
   for (int i = 0; i <= points; ++i) {
-    const double c = fastest * i / points;
+    const double c = fastest_shown * i / points;
     curve.x.push_back(c);
     curve.y.push_back(std::exp(-c * c));
   }
@@ -115,7 +115,7 @@ std::optional<Plot> figure_03(const Averages& averages) {
   if (available.empty()) return std::nullopt;
   const MeanSeries& series = nearest(available, restitution);
 
-  Panel panel{.x = {.label = "{/:Italic c}", .column = "c", .low = 0, .high = fastest},
+  Panel panel{.x = {.label = "{/:Italic c}", .column = "c", .low = 0, .high = fastest_shown},
               .y = {.label = "{/:Italic ρ}({/:Italic c})",
                     .column = "rho",
                     .logarithmic = true,
@@ -134,7 +134,7 @@ std::optional<Plot> figure_03(const Averages& averages) {
     curve.realizations.assign(curve.x.size(), profile->realizations);
     curve.look = Look::symbols;
     curve.colour = shade(panel.curves.size(), profiles.size());
-    panel.curves.push_back(until(fastest, std::move(curve)));
+    panel.curves.push_back(until(fastest_shown, std::move(curve)));
   }
   Panel inset = ratios(panel.curves);
   panel.curves.push_back(gaussian());
