@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-# Results are promised bit for bit. Flags that let the compiler compute something else than what is
+# Results are promised bit for bit. Flags that let the compiler compute something other than what is
 # written are refused here, by name; support/arithmetic.hpp refuses those that come another way.
 set(flags_that_change_results
   -ffast-math -Ofast -funsafe-math-optimizations -fassociative-math -freciprocal-math
   -ffinite-math-only -fno-signed-zeros -fsingle-precision-constant -mfpmath=387 -ffp-model=fast)
 
-# Also those of the linker: there, gcc 12 takes -ffast-math as "flush small numbers to zero".
+# The linker's flags are examined too: gcc 12 takes -ffast-math there as "flush small numbers to
+# zero".
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
 set(places CMAKE_CXX_FLAGS CMAKE_EXE_LINKER_FLAGS)
 foreach(configuration IN LISTS build_type CMAKE_CONFIGURATION_TYPES)

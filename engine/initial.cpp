@@ -19,8 +19,8 @@
 namespace haff::engine {
 namespace {
 
-// Newton's method from above, where every step decreases the value until rounding stops it.
-// std::cbrt is not correctly rounded, and its last bit would end up in the trajectory.
+// The cube root by Newton's method from above, where every step decreases the value until rounding
+// stops it. std::cbrt is not correctly rounded, and its last bit would end up in the trajectory.
 double cube_root(double x) {
   double root = std::max(x, 1.0);
   for (;;) {
@@ -37,7 +37,7 @@ void set_energy(std::vector<Particle>& particles, double energy, const Masses& m
     for (double& v : p.velocity) v *= factor;
 }
 
-// Gaussian velocities; all species have the same temperature.
+// Draws Gaussian velocities; all species have the same temperature.
 template <class Masses>
 void draw_velocities(std::vector<Particle>& particles, std::uint64_t seed, int d,
                      const Masses& masses) {
@@ -89,7 +89,7 @@ State initial_state(double n, std::uint32_t count, std::uint64_t seed, int d,
     sort_in_space(particles, box);
     return to_state(particles, Clock{}, box);
   }
-  if (lattice) mix(particles, seed);  // a particle that has grown has the place of its size
+  if (lattice) mix(particles, seed);  // grown particles are already where their size fits
   draw_velocities(particles, seed, d, MixedMasses{*mixture});
   sort_in_space(particles, box);
   State state = to_state(particles, Clock{}, box);

@@ -48,7 +48,7 @@ void note(const Mixture& mixture, State& state) {
 double relative_rate(const Mixture& mixture, int d, std::uint32_t particles) {
   const double second = 1 - static_cast<double>(mixture.first) / particles;
   const double first = 1 - second;
-  // The cross section: a disk of radius sigma_ab; in two dimensions, its diameter.
+  // The cross section: the area of a disk of radius sigma_ab, or its diameter in two dimensions.
   const auto target = [&](double contact) { return d == 2 ? contact : contact * contact; };
   return first * first +
          2 * first * second * target(0.5 * (1 + mixture.diameter)) *

@@ -33,15 +33,16 @@ struct Mixture {
   bool operator==(const Mixture&) const = default;
 };
 
-// From its parameters fraction (of species 2), diameter_ratio and mass_ratio. Throws
-// std::invalid_argument if one is missing or out of range, or a species has no particle.
+// The mixture with the parameters fraction (of species 2), diameter_ratio and mass_ratio. Throws
+// std::invalid_argument if one is missing or out of range, or if a species has no particle.
 Mixture mixture_of(const std::map<std::string, double>& parameters, std::uint32_t particles);
 
-// The mixture that a state records in its memory, if it is one; and how it is recorded.
+// The mixture that a state records in its memory, or nothing if it is not a mixture; note() records
+// it.
 std::optional<Mixture> mixture_in(const State& state);
 void note(const Mixture& mixture, State& state);
 
-// Boltzmann's collision rate in d dimensions at given n and T, in units of that of species 1 alone.
+// Boltzmann's collision rate in d dimensions at given n and T, relative to that of species 1 alone.
 double relative_rate(const Mixture& mixture, int d, std::uint32_t particles);
 
 }  // namespace haff::engine

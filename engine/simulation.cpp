@@ -20,7 +20,8 @@ namespace haff::engine {
 
 namespace {
 
-// What a state remembers of the particles themselves (mixture.cpp, rough_collision.hpp).
+// The names under which a state's memory keeps properties of the particles (mixture.cpp,
+// rough_collision.hpp).
 constexpr std::array<std::string_view, 2> of_particles{"mixture", "spin"};
 
 bool is_effect(std::string_view name) {
@@ -43,7 +44,7 @@ class Simulation::Implementation {
     begin_period();
   }
 
-  // Returns whether it stopped at the true time.
+  // Returns whether the run stopped at the true time.
   bool run_to(std::int64_t collisions, double time) {
     while (gas.clock.collisions < collisions) {
       const std::int64_t stop = std::min(collisions, next_stop);
@@ -115,7 +116,8 @@ class Simulation::Implementation {
   }
 
   // Whether the stretch up to next_stop must take time. A few collisions need not: an action can
-  // send two particles that have just collided towards each other again, and they collide at once.
+  // send two particles that have just collided towards each other again, and then they collide at
+  // once.
   bool is_long = false;
 };
 

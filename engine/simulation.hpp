@@ -24,8 +24,8 @@
 
 namespace haff::engine {
 
-// Which bits the engine computes. Any change of a trajectory raises it, which checkpoints and jobs
-// carry: tests/engine/golden_states.cpp holds the hashes of the present one.
+// The version of the bits that the engine computes, which checkpoints and jobs carry. Any change of
+// a trajectory raises it; tests/engine/golden_states.cpp holds the hashes of the present version.
 inline constexpr int physics_version = 1;
 
 using Parameters = std::map<std::string, double>;
@@ -44,28 +44,27 @@ struct Model {
   // Further effects by name, with their parameters: {{"shuffle", {{"every", 1}}}}.
   std::map<std::string, Parameters> effects = {};
   std::uint64_t seed = 0;  // of the random numbers of effects
-  // Whether collisions are counted in bins. The trajectory keeps its bits; it is computed by one
-  // thread.
+  // Whether collisions are counted in bins. The trajectory keeps its bits; one thread computes it.
   bool counts_collisions = false;
 };
 
-// Which implementation searches for contacts. All give the same bits.
+// The implementation that searches for contacts. All give the same bits.
 enum class SearchBackend { simd, scalar };
 
-// On how many threads a simulation runs. Every number gives the same bits.
+// The threads that a simulation runs on. Every number gives the same bits.
 struct Threads {
   unsigned count = 1;
   // Into how many slabs the box is divided, at least one for each thread; 0: as many as threads.
   unsigned slabs = 0;
   // The length of a window [collisions per particle], within which the threads do not wait for each
-  // other; 0: adapted to the gas. For tests.
+  // other; 0: adapted to the gas. Tests set it.
   double window = 0;
 };
 
-// What several threads have done.
+// Counts of the work of several threads.
 struct Windows {
   std::int64_t count = 0;
-  std::int64_t repaired = 0;      // undone, and worked off in one piece
+  std::int64_t repaired = 0;      // undone and repeated in one piece
   std::int64_t in_one_piece = 0;  // collisions
   // Events of windows that were not repaired, by the phase in which they were processed.
   std::int64_t in_slabs = 0;
@@ -100,12 +99,13 @@ struct Collapse : std::runtime_error {
   std::int64_t collisions;               // so far, when it was noticed
 };
 
-// Pair collisions after which tau (collisions per particle) is reached: ceil(tau N / 2).
+// The number of pair collisions after which tau (collisions per particle) is reached:
+// ceil(tau N / 2).
 std::int64_t collisions_at(double tau, std::uint32_t particles);
 
 // The gas is synchronized whenever tau is a multiple of this (and whenever an action is due); only
-// then can it be stored. This is part of the definition of a trajectory: changing it changes bits.
-// [collisions/particle]
+// then can its state be stored. The period is part of the definition of a trajectory: changing it
+// changes bits. [collisions/particle]
 inline constexpr double synchronization_period = 10;
 
 class Simulation {
@@ -118,18 +118,19 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  // Runs until exactly so many pair collisions have happened in total, and synchronizes on the way
-  // whenever that is due. Throws PhysicsError or Collapse; after that the gas can only be observed.
+  // Runs until exactly this many pair collisions have happened in total, and synchronizes on the
+  // way whenever that is due. Throws PhysicsError or Collapse; after that the gas can only be
+  // observed.
   void run_to(std::int64_t collisions);
 
-  // The same, but not beyond this true time. Returns true if it stops there, between two
-  // collisions: fewer have happened, and positions() are those of that moment. The trajectory is
-  // the same wherever a run stops. A time that has passed is now.
+  // The same, but not beyond this true time. Returns true if the run stops there, between two
+  // collisions: fewer collisions have happened, and positions() are those of that moment. The
+  // trajectory is the same wherever a run stops. A time that has already passed means now.
   bool run_to(std::int64_t collisions, double time);
 
   std::uint32_t particles() const;
   std::int64_t collisions() const;
-  double time() const;        // the true time of the last event, or that a run has stopped at
+  double time() const;        // the true time of the last event, or at which a run has stopped
   bool synchronized() const;  // whether state() may be called
 
   // Scaled velocities (true velocity = velocity * 2^-exponent), in an order that depends on the
@@ -143,18 +144,19 @@ class Simulation {
   // do not rotate.
   std::optional<double> rotational_energy() const;
 
-  // What collisions did since the last call.
+  // The tally of collisions since the last call.
   Tally take_tally();
   Invariants invariants() const;
 
-  // What collisions were like since the last call, in bins; nothing unless the model asks for it.
+  // The statistics of collisions since the last call, in bins; nothing unless the model asks for
+  // them.
   std::optional<CollisionCounts> take_collision_counts();
 
   // The state; throws std::logic_error if the gas is not synchronized.
   State state() const;
 
-  // What the gas is at time(), synchronized or not: positions, velocities, species and spins, to be
-  // looked at. It has no memory and no tally: the trajectory does not go on from it.
+  // The gas as it is at time(), synchronized or not, to be looked at: positions, velocities,
+  // species and spins. It has no memory and no tally, so a trajectory cannot go on from it.
   State snapshot() const;
 
   Events events() const;                   // since the simulation was made

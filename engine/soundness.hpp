@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Whether a state can be that of a gas of hard spheres: finite, inside its box, without overlaps.
-// And how large the invariants of a run may be.
+// Whether a state can be that of a gas of hard spheres (finite, inside its box, without overlaps),
+// and how large the invariants of a run may be.
 #pragma once
 
 #include <optional>
@@ -30,25 +30,25 @@ inline constexpr double smallest_box = 2;
 // 1e-16 sqrt(N) as measured. [relative to the energy]
 inline constexpr double allowed_energy_mismatch = 1e-11;
 
-// What collisions round off adds up to 1e-15 of sqrt(N) rms speeds between two synchronizations.
-// The sum over all particles is less exact: it runs along a curve through space, and where
-// velocities are correlated its parts grow to N times the speed of the streams, not sqrt(N), each
-// rounded to 1e-16 of itself: some 1e-17 N, and 1e-12 as measured at N = 6 10^5 in the clustering
-// stage. The momentum allowed here carries 1e-18 of the energy; a single collision that did not
-// conserve it would leave 1/sqrt(N).
+// Rounding in collisions adds up to 1e-15 of sqrt(N) rms speeds between two synchronizations. The
+// sum over all particles is less exact: it runs along a curve through space, and where velocities
+// are correlated its partial sums grow to N times the speed of the streams, not sqrt(N), each
+// rounded to 1e-16 of itself. This gives some 1e-17 N, and 1e-12 as measured at N = 6 10^5 in the
+// clustering stage. The momentum allowed here carries 1e-18 of the energy; a single collision that
+// did not conserve momentum would leave 1/sqrt(N).
 inline constexpr double allowed_momentum = 1e-9;
 
-// So many collisions too slow to be resolved (loop/watchdog.hpp) are an inelastic collapse. One of
-// them may be chance in a very long run.
+// This many collisions too slow to be resolved (loop/watchdog.hpp) are an inelastic collapse. A
+// single one may occur by chance in a very long run.
 inline constexpr std::int64_t unresolved_collisions_of_a_collapse = 3;
 
 // The deepest overlap seen at a collision. [sigma]
 double largest_overlap(const Invariants& invariants);
 
-// What is wrong with the state, or nothing.
+// Says what is wrong with the state; nothing if it is sound.
 std::optional<std::string> unsoundness(const State& state);
 
-// What is wrong with a run that has these invariants, or nothing.
+// Says what is wrong with a run that has these invariants; nothing if it is sound.
 std::optional<std::string> violation(const Invariants& invariants, double allowed_overlap);
 
 }  // namespace haff::engine

@@ -2,7 +2,7 @@
 
 // The state of a gas at a synchronization: every particle at the same instant.
 //
-// A checkpoint holds a state, and a simulation starts from one and returns one. Units (m = sigma =
+// A checkpoint holds a state; a simulation starts from a state and returns one. Units (m = sigma =
 // 1, and energy per particle 1 at the start): length sigma, mass m, time sigma sqrt(m/E(0)).
 // Velocities are scaled so that the thermal speed stays near 1: the true velocity is velocity *
 // 2^-exponent, exactly (particles/synchronize.hpp).
@@ -18,7 +18,7 @@ namespace haff::engine {
 
 using Vector = std::array<double, 3>;
 
-// What collisions did since the tally was last taken, in the units of the velocities.
+// Sums over the collisions since the tally was last taken, in the units of the velocities.
 struct Tally {
   double dissipated = 0;  // kinetic energy lost, summed collision by collision
   double virial = 0;      // sum of sigma * |momentum transfer|; p = nT + virial / (d V time)
@@ -26,8 +26,8 @@ struct Tally {
   bool operator==(const Tally&) const = default;
 };
 
-// Whether the physics held: counters that every run keeps from its start. soundness.hpp says how
-// large they may be, and why.
+// Counters that show whether the physics held; every run keeps them from its start. soundness.hpp
+// says how large they may be, and why.
 struct Invariants {
   double closest2 = 1;                     // smallest squared distance at a collision [sigma^2]
   std::int64_t past_events = 0;            // events whose time had passed when their turn came
@@ -56,8 +56,8 @@ struct State {
   Tally tally;                  // in scaled units, like the velocities
   Invariants invariants;
 
-  // What a restitution model or an effect remembers from one collision or action to the next, by
-  // name. Most remember nothing.
+  // The memory of a restitution model or an effect from one collision or action to the next, by
+  // name. Most have none.
   std::map<std::string, std::vector<double>> memory;
 
   std::uint32_t particles() const { return static_cast<std::uint32_t>(id.size()); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What actions are made from. The actions are listed in actions.hpp.
+// The interface of an action, an effect that changes velocities between collisions. The actions are
+// listed in actions.hpp.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +22,8 @@ class Action {
   Action(const Action&) = delete;
   Action& operator=(const Action&) = delete;
 
-  // The first collision number after `collisions` at which the action is due. A function of the
-  // two numbers alone, so that a resumed run acts where an uninterrupted run does.
+  // The first collision number after `collisions` at which the action is due. It depends on the two
+  // numbers alone, so that a resumed run acts where an uninterrupted run does.
   virtual std::int64_t next(std::int64_t collisions, std::size_t particles) const = 0;
 
   // Changes the velocities of a gas that has just been synchronized, but not its total momentum.

@@ -33,7 +33,7 @@ bool is_action(std::string_view name);
 // The actions that the model asks for, in the order of the list; they are also done in this order.
 std::vector<std::unique_ptr<Action>> actions_of(const Model& model, const State& start);
 
-// Does the actions that are due. Returns whether there was one: the velocities have changed then,
+// Does the actions that are due. Returns whether there was one. If so, the velocities have changed,
 // and the clock has to start anew from them.
 bool act(const std::vector<std::unique_ptr<Action>>& actions, std::span<Particle> particles,
          const Clock& clock);

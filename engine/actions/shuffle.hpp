@@ -4,10 +4,10 @@
 //
 // This destroys the spatial correlations of the velocities and keeps their distribution. It tests
 // the argument of R. Kawahara and H. Nakanishi, cond-mat/0309130: without correlations, a_2 stays
-// where the Enskog-Boltzmann equation comes to rest, -0.0170 at e = 0.85 by direct simulation
-// (-A/B = -0.0153 is first order in a_2). The gas stays 6 % short of it at n = 0.05 and 14 % at
-// n = 0.4: positions are not permuted, and pairs near contact collide again. The permutation is
-// done whenever tau is a multiple of `every` [collisions per particle].
+// at the fixed point of the Enskog-Boltzmann equation, -0.0170 at e = 0.85 by direct simulation
+// (-A/B = -0.0153 is first order in a_2). The gas stays 6 % short of this value at n = 0.05 and
+// 14 % at n = 0.4: positions are not permuted, and pairs near contact collide again. The
+// permutation is done whenever tau is a multiple of `every` [collisions per particle].
 #pragma once
 
 #include <string_view>

@@ -22,9 +22,10 @@
 
 namespace haff::engine {
 
-// Between kicks the gas cools freely: it loses 2 gamma_0 times this, 3 % of its energy at e = 0.8.
-// Samples are taken at multiples of the period, kicks come halfway between: so T and a_2 in the
-// samples agree with those of continuous noise to second order, within 1e-3. [collisions/particle]
+// Between kicks the gas cools freely: it loses the fraction 2 gamma_0 kick_period of its energy, 3
+// % at e = 0.8. Samples are taken at multiples of the period and kicks come halfway between them,
+// so that T and a_2 in the samples agree with those of continuous noise to second order, within
+// 1e-3. [collisions/particle]
 inline constexpr double kick_period = 0.25;
 
 class Thermostat : public Action {
@@ -40,7 +41,7 @@ class Thermostat : public Action {
     const auto found = start.memory.find(key);
     if (found == start.memory.end()) return;
     if (found->second.size() != 1)
-      throw std::invalid_argument("the state remembers no one moment of the last kick");
+      throw std::invalid_argument("the state does not hold one time of the last kick");
     last_ = found->second.front();
   }
 

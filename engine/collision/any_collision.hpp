@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The collision rule that a model asks for, smooth or rough, chosen at run time: for event loops
-// whose collisions cost more than a virtual call.
+// The collision rule that a model asks for, smooth or rough, chosen at run time. It serves event
+// loops whose collisions cost more than a virtual call.
 #pragma once
 
 #include <memory>

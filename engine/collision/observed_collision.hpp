@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A collision rule whose collisions are counted in bins (collision_counts.hpp): the observable
-// collision_statistics. It is compiled into event loops of its own, so that a gas that is not
-// observed has none of its instructions.
+// A collision rule that also counts its collisions in bins (collision_counts.hpp), for the
+// observable collision_statistics. It is compiled into event loops of its own, so that a gas that
+// is not observed has none of its instructions.
 //
-//   free time     C - C_last collisions of the whole gas happened since the particle's last one:
-//                 2 (C - C_last) / N on the collision clock tau. dtau = omega dt, so this is the
-//                 free time over the mean free time, whatever the temperature does meanwhile.
+//   free time     C - C_last, the collisions of the whole gas since the particle's last one:
+//                 2 (C - C_last) / N on the collision clock tau. As dtau = omega dt, this is the
+//                 free time over the mean free time, however the temperature changes meanwhile.
 //   impact        with r and v of the pair at contact, b^2 = 1 - (r.v)^2 / (r^2 v^2)
-//   normal speed  |r.v| / r, over sqrt(T/mu). T = 2E/d follows the collisions: E is that of the
-//                 last synchronization plus what collisions have changed since.
+//   normal speed  |r.v| / r, over sqrt(T/mu). T = 2E/d follows the collisions: E is the energy at
+//                 the last synchronization plus the change by collisions since.
 //
-// It reads the records and changes nothing, so the trajectory keeps its bits. The counts and the
-// last collision of every particle are in the memory of the state.
+// The rule reads the records and changes nothing in them, so the trajectory keeps its bits. The
+// counts and the last collision of every particle are in the memory of the state.
 #pragma once
 
 #include <algorithm>
@@ -77,7 +77,7 @@ class ObservedCollision : public AnyCollision<PairGeometry> {
     for_each_bin(counts_,
                  [&](std::int64_t count) { values.push_back(static_cast<double>(count)); });
   }
-  // The clock has noted the energy anew.
+  // Called when the clock has noted the energy anew.
   void scale(int exponent) {
     Rule::scale(exponent);
     gained_ = 0;
@@ -99,7 +99,7 @@ class ObservedCollision : public AnyCollision<PairGeometry> {
     for (auto& count : counts.normal_speed) visit(count);
   }
 
-  // Counts a value in bins of width 1. What is beyond them, or not a number, is in the last one.
+  // Counts a value in bins of width 1. The last bin takes values beyond the others and NaN.
   template <class Bins>
   static void count(Bins& all, double value) {
     const auto last = static_cast<double>(all.size() - 1);
@@ -121,7 +121,8 @@ class ObservedCollision : public AnyCollision<PairGeometry> {
     count(counts_.normal_speed, CollisionCounts::normal_speed_resolution * std::sqrt(scaled2));
   }
 
-  // In whole numbers: particles whose number divides the bins evenly are in the bin they belong to.
+  // The arithmetic is in integers: where the number of particles divides the bins evenly, each
+  // flight is in exactly its bin.
   void count_flight(std::uint32_t id) {
     const std::int64_t began = static_cast<std::int64_t>(last_[id]);
     last_[id] = static_cast<double>(collisions_);
@@ -132,7 +133,7 @@ class ObservedCollision : public AnyCollision<PairGeometry> {
         std::min<std::int64_t>(bin, CollisionCounts::bins_of_free_time))];
   }
 
-  // Of translation.
+  // The energy of translation.
   double energy_of(const Particle& p) const {
     return 0.5 * this->masses().of(p) * dot(p.velocity, p.velocity);
   }

@@ -40,9 +40,9 @@ inline constexpr double never = std::numeric_limits<double>::infinity();
 
 // r.v of a pair in contact is a sum of three products of numbers of order one, each known to 2^-53.
 // Speeds in scaled units are below 10, so the error of the sum is some 1e-15, a tenth of this
-// limit. A real approach this slow has a probability of 1e-28 per collision. With a larger limit,
-// resting spheres would sink into each other by this much per unit of time; with a smaller one,
-// contacts at e = 0 would repeat without end. [sigma * scaled speed]
+// limit. An approach that is truly so slow has a probability of 1e-28 per collision. With a larger
+// limit, resting spheres would sink into each other by this much per unit of time; with a smaller
+// one, contacts at e = 0 would repeat without end. [sigma * scaled speed]
 inline constexpr double smallest_approach = 0x1p-46;
 
 inline double dot(const Vector& a, const Vector& b) {
@@ -78,7 +78,7 @@ struct Encounter {
 // The pair geometry of equal spheres or disks of diameter sigma and mass m. A pair geometry says
 // when two particles touch and what masses they have; two_species.hpp is that of a binary mixture.
 struct HardSpheres {
-  // The time at which the two touch, or `never`.
+  // The time at which the particles touch, or `never`.
   static double contact_time(const Encounter& pair, const Particle&, const Particle&) {
     const double approach = dot(pair.r, pair.v);
     const double gap = dot(pair.r, pair.r) - 1;
@@ -89,7 +89,7 @@ struct HardSpheres {
   }
   // The squared distance of the centres at contact.
   static constexpr double contact2(const Particle&, const Particle&) { return 1; }
-  // Relative to that of a pair of species 1 (Impact).
+  // The effective radius relative to that of a pair of species 1 (Impact).
   static constexpr double effective_radius(const Particle&, const Particle&) { return 1; }
   static EqualMasses masses() { return {}; }
 

@@ -4,10 +4,9 @@
 //
 // Model of M. Huthmann and A. Zippelius, Phys. Rev. E 56, R6275 (1997), cond-mat/9708093, for
 // particles of any masses. Spheres a and b with angular velocities omega touch; n is the unit
-// vector from a to b, mu their reduced mass. Of the velocity of their surfaces relative to each
-// other,
+// vector from a to b, mu their reduced mass. The relative velocity of their surfaces is
 //   g = v_a - v_b + (sigma_a/2 omega_a + sigma_b/2 omega_b) x n,
-// the normal part g_n changes to -e g_n and the tangential part g_t to -beta g_t:
+// of which the normal part g_n becomes -e g_n and the tangential part g_t becomes -beta g_t:
 //   v_a* = v_a - (mu/m_a) [(1+e) g_n + 2 eta g_t],   w_a* = w_a - (mu/m_a) (2 eta/q) n x g_t,
 //   v_b* = v_b + (mu/m_b) [the same],                w_b* = w_b - (mu/m_b) (the same),
 //   w = (sigma/2) omega,   eta = q (1+beta) / (2 (1+q)),
@@ -15,8 +14,8 @@
 // species: 2/5 for solid spheres, 1/2 for solid disks. Momentum and angular momentum are conserved;
 // the energy lost is
 //   (mu/2) (1-e^2) g_n^2 + (mu/2) q/(1+q) (1-beta^2) g_t^2.
-// Disks rotate about the axis perpendicular to their plane: n x g_t has only this component, so
-// their spins have only this component, too.
+// Disks rotate about the axis perpendicular to their plane: n x g_t has only this component, and so
+// have their spins.
 //
 // A spin is stored as w, a speed of the surface, scaled like the velocities; the kinetic energy of
 // rotation is (m/2) q w^2. Spins are stored by id in an array of their own because only a collision
@@ -99,7 +98,7 @@ class RoughCollision : public SmoothCollision<AnyRestitutionModel, PairGeometry>
       for (std::size_t k = 0; k < 3; ++k) spin_[i][k] = found->second[3 * i + k];
     if (state.d == 2 && std::any_of(spin_.begin(), spin_.end(),
                                     [](const Vector& w) { return w[0] != 0 || w[1] != 0; }))
-      throw std::invalid_argument("the state remembers disks that turn out of their plane");
+      throw std::invalid_argument("the state has disks that rotate about an axis in their plane");
   }
   void store(State& state) const {
     Smooth::store(state);
@@ -118,7 +117,7 @@ class RoughCollision : public SmoothCollision<AnyRestitutionModel, PairGeometry>
     energy_before_ = energy();
   }
 
-  // What a collision changes beside the records, to undo it.
+  // The data beside the records that a collision changes, to undo it.
   struct Memento {
     std::uint32_t a, b;  // ids
     Vector spin_of_a, spin_of_b;
@@ -148,7 +147,7 @@ class RoughCollision : public SmoothCollision<AnyRestitutionModel, PairGeometry>
   double beta_;
   double eta_;
   int exponent_ = 0;          // true spin = spin * 2^-exponent
-  double energy_before_ = 0;  // of rotation per particle, at the last synchronization
+  double energy_before_ = 0;  // energy of rotation per particle at the last synchronization
   HugeVector<Vector> spin_;   // by id
 };
 

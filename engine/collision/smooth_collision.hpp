@@ -22,9 +22,9 @@
 
 namespace haff::engine {
 
-// The reduced mass mu = m_a m_b / (m_a + m_b) of a pair, and the shares mu/m_a and mu/m_b of a
-// change of the relative velocity that each particle takes. For equal masses all three are 1/2,
-// which the compiler knows.
+// The reduced mass mu = m_a m_b / (m_a + m_b) of a pair, and mu/m_a and mu/m_b, the shares of a
+// change of the relative velocity that the particles take. For equal masses all three are 1/2, as
+// the compiler knows.
 struct ReducedMass {
   template <class Masses>
   [[gnu::always_inline]] ReducedMass(const Masses& masses, const Particle& a, const Particle& b) {
@@ -66,7 +66,7 @@ class SmoothCollision : public PairGeometry {
   }
   void scale(int exponent) { restitution_.scale(exponent); }
 
-  // What a collision changes beside the records: nothing.
+  // The data beside the records that a collision changes, to undo it: none.
   struct Memento {};
   static Memento memento(const Particle&, const Particle&) { return {}; }
   static void restore(const Memento&) {}
@@ -76,9 +76,9 @@ class SmoothCollision : public PairGeometry {
   static std::size_t memory() { return 0; }  // bytes
 
  protected:
-  // The pair as it met.
+  // The pair at its contact, before the collision.
   struct Meeting {
-    Four r, v;        // of b relative to a, before the collision
+    Four r, v;        // of b relative to a
     double approach;  // r.v
     double distance2;
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// PairGeometry of a binary mixture (mixture.hpp): two of them touch at a distance
-// sigma_ab = (sigma_a + sigma_b)/2. With equal species every bit is as of HardSpheres.
+// The pair geometry of a binary mixture (mixture.hpp): two particles touch at the distance sigma_ab
+// = (sigma_a + sigma_b)/2. With equal species every bit is that of HardSpheres.
 #pragma once
 
 #include <stdexcept>
@@ -26,7 +26,7 @@ class TwoSpecies {
     return pair.start + std::max(gap, 0.0) / (std::sqrt(discriminant) - approach);
   }
   double contact2(const Particle& a, const Particle& b) const { return contact2(a.id, b.id); }
-  // The same between a and any particle of species 1 or 2.
+  // contact2() of a and any particle of species 1 or 2.
   double contact2_with_first(const Particle& a) const { return contact2(a.id, 0); }
   double contact2_with_second(const Particle& a) const { return contact2(a.id, mixture_.first); }
   double effective_radius(const Particle& a, const Particle& b) const {

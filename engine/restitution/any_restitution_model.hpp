@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Any restitution model, chosen at run time: for physics whose collisions cost more than a virtual
+// Any restitution model, chosen at run time, for physics whose collisions cost more than a virtual
 // call. One compilation of the event loop then serves all restitution models.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // The TC model of S. Luding and S. McNamara, Granular Matter 1, 113 (1998), cond-mat/9810009: a
-// real contact lasts for a while, so a sphere that touched another one less than t_c ago is still
+// real contact takes some time, so a sphere that touched another one less than t_c ago is still
 // deformed.
 //
 // A collision is elastic if the previous collision of either partner was less than t_c ago
@@ -62,7 +62,7 @@ class ContactDuration {
 
   double e_;
   double duration_;           // t_c
-  double scaled_ = 0;         // the same in scaled time
+  double scaled_ = 0;         // t_c in scaled time
   int exponent_ = 0;          // of the scaled time
   std::vector<double> last_;  // by id: time of the last contact before the last synchronization,
                               // relative to that synchronization, in scaled units; -infinity if

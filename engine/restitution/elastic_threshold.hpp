@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A threshold of speed: slow collisions are elastic, all others have the restitution coefficient e.
+// A threshold of speed: slow collisions are elastic; all others have the restitution coefficient e.
 //
-// The simplest cure for inelastic collapse: the relative speeds in a collapsing group
-// fall geometrically, and stop falling at the threshold. A collision is elastic if its normal
-// relative speed |n.(v_a - v_b)| is less than `speed` [sqrt(E(0)/m)].
+// This is the simplest cure for inelastic collapse: the relative speeds in a collapsing group fall
+// geometrically, and stop falling at the threshold. A collision is elastic if its normal relative
+// speed |n.(v_a - v_b)| is less than `speed` [sqrt(E(0)/m)].
 #pragma once
 
 #include <cmath>
@@ -31,7 +31,7 @@ class ElasticThreshold : public Memoryless {
  private:
   double e_;
   double speed_;
-  double scaled2_ = 0;  // in units of the scaled velocities, squared
+  double scaled2_ = 0;  // the squared speed in scaled units
 };
 
 }  // namespace haff::engine

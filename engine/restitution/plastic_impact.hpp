@@ -6,8 +6,9 @@
 // falls as v^(-1/4) with the normal relative speed v, while below a yield speed spheres deform
 // elastically. Joined at the yield `speed` v_y [sqrt(E(0)/m)],
 //   e = 1 for v <= v_y,   e = (v_y/v)^(1/4) beyond.
-// v_y goes as sqrt(R^3/mu), R the effective radius and mu the reduced mass of the pair: in a
-// mixture `speed` is the value for two particles of species 1; both species are of one material.
+// v_y is proportional to sqrt(R^3/mu), where R is the effective radius and mu the reduced mass of
+// the pair: in a mixture `speed` is the value for two particles of species 1, and both species are
+// of one material.
 #pragma once
 
 #include <cmath>
@@ -24,7 +25,7 @@ class PlasticImpact : public Memoryless {
   // The model decides e, so the first argument is unused.
   PlasticImpact(double, const Parameters& parameters) : speed_(positive(parameters, "speed")) {}
 
-  // A fourth root is two square roots, whose every bit IEEE 754 defines.
+  // The fourth root is taken as two square roots: IEEE 754 defines every bit of them.
   double operator()(const Impact& impact) const {
     const double speed = std::sqrt(impact.speed2);
     const double yield =
@@ -36,7 +37,7 @@ class PlasticImpact : public Memoryless {
 
  private:
   double speed_;
-  double scaled_ = 0;  // in units of the scaled velocities
+  double scaled_ = 0;  // the yield speed in scaled units
 };
 
 }  // namespace haff::engine

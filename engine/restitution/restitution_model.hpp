@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What restitution models are made from. The models are listed in restitution_models.hpp.
+// The interface of a restitution model. The models are listed in restitution_models.hpp.
 #pragma once
 
 #include <span>
@@ -10,14 +10,15 @@
 
 namespace haff::engine {
 
-// What a restitution model may know of a collision.
+// The properties of a collision that a restitution model may use.
 struct Impact {
   const Particle& a;  // records from before this collision; a particle with `changes` = 0 has not
   const Particle& b;  // collided since the last synchronization
   double now;
   double speed2;  // of approach along the normal, squared, in scaled units
   // Effective radius sigma_a sigma_b / (sigma_a + sigma_b) and reduced mass of the pair, relative
-  // to those of a pair of species 1: what the strength of a model of one material depends on.
+  // to those of a pair of species 1. They scale the strength of a model in a mixture of one
+  // material.
   double radius;
   double mass;
 };

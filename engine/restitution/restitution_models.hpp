@@ -12,8 +12,8 @@
 //     void scale(int exponent);                                   // units of speed: see Memoryless
 //   };
 //
-// and a line in the list below. The event loop is compiled with each of them; a gas runs the one
-// that it asks for, and has neither data nor instructions of the others.
+// and a line in the list below. The event loop is compiled with each of them; a gas runs the loop
+// that its model asks for, and has neither data nor instructions of the other models.
 #pragma once
 
 #include <stdexcept>

@@ -9,8 +9,7 @@
 // (sqrt(R)/mu)^(2/5), where R is the effective radius and mu the reduced mass of the pair: in a
 // mixture A is the value for two particles of species 1, and both species are of one material. The
 // series has its minimum, 0.583, at x = 5/6 and returns to 1 at x = 5/3; beyond that it does not
-// describe spheres.
-// A gas of them cools as T ~ t^(-5/3).
+// describe spheres. A gas of viscoelastic spheres cools as T ~ t^(-5/3).
 #pragma once
 
 #include <bit>
@@ -23,10 +22,10 @@
 
 namespace haff::engine {
 
-// x^(1/5) of a normal number x > 0, with a relative error of some 1e-16. It uses only + * /, so
+// x^(1/5) of a normal number x > 0, with a relative error of some 1e-16. Only + * / are used, so
 // IEEE 754 defines every bit. The bits of a double, read as an integer, are nearly its logarithm: a
-// fifth of that integer is within 7 % of the root. Three steps of Halley's method, each of which
-// cubes the relative error and halves it, suffice.
+// fifth of that integer is within 7 % of the root. Three steps of Halley's method suffice, each of
+// which cubes the relative error and halves it.
 inline double fifth_root(double x) {
   constexpr std::uint64_t four_fifths_of_one = 0x3ff0000000000000 / 5 * 4;
   double root = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) / 5 + four_fifths_of_one);
@@ -53,8 +52,8 @@ class Viscoelastic : public Memoryless {
     return 1 - x + 0.6 * (x * x);
   }
 
-  // v^(1/5) in true units: a fifth of the exponent goes in front of the root, the remainder under
-  // it.
+  // v^(1/5) in true units: a fifth of the exponent goes in front of the root; the remainder stays
+  // under the root.
   void scale(int exponent) {
     const int left = (exponent % 5 + 5) % 5;
     remainder_ = std::ldexp(1.0, -left);
@@ -71,7 +70,7 @@ class Viscoelastic : public Memoryless {
   }
 
   double strength_;       // C_1 A
-  double scaled_ = 0;     // the same for scaled velocities, but for ...
+  double scaled_ = 0;     // the same for scaled velocities, except for ...
   double remainder_ = 1;  // ... this power of two
 };
 

@@ -13,7 +13,7 @@
 namespace haff::engine {
 namespace {
 
-// Growth is told by the diameter of the largest spheres, which grows from 0 to sigma.
+// The stage of growth is given by the diameter of the largest spheres, which grows from 0 to sigma.
 
 // d(diameter)/dt, in units of the thermal speed: slow enough to reach random close packing, and
 // fast enough to avoid crystallization on the way.
@@ -22,7 +22,7 @@ constexpr double growth_rate = 0.02;
 // synchronizations. [sigma]
 constexpr double least_growth = 1e-5;
 
-// Elastic spheres that have grown to the part `diameter` + growth_rate * (time since the
+// Elastic spheres that have grown to the fraction `diameter` + growth_rate * (time since the
 // synchronization) of their final size.
 struct GrowingSpheres {
   double diameter;
@@ -36,7 +36,7 @@ struct GrowingSpheres {
     const double speed2 = dot(pair.v, pair.v) - rate * rate;
     const double gap = dot(pair.r, pair.r) - wide * wide;
     const double discriminant = approach * approach - speed2 * gap;
-    // A pair that separates more slowly than the spheres grow touches, too.
+    // A pair that separates more slowly than the spheres grow also touches.
     if (!((approach < 0 || (speed2 < 0 && gap > 0)) && discriminant >= 0)) return never;
     return pair.start + std::max(gap, 0.0) / (std::sqrt(discriminant) - approach);
   }
@@ -46,7 +46,7 @@ struct GrowingSpheres {
     advance(b, now);
     const Encounter contact(a, b, now, box);
     const double distance2 = dot(contact.r, contact.r);
-    // Reflected in the frame of the surfaces, which part at the rate at which the two grow.
+    // Reflected in the frame of the surfaces, which move at the rate at which the two grow.
     const double rate = growth_rate * sizes.contact_distance(a.id, b.id);
     const double change = dot(contact.r, contact.v) / distance2 - rate / std::sqrt(distance2);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -55,7 +55,7 @@ struct GrowingSpheres {
     }
     ++a.changes;
     ++b.changes;
-    return -1;  // growth drives them apart: this is nothing for the watchdog
+    return -1;  // growth drives the pair apart, so that the watchdog need not count this collision
   }
 };
 
@@ -78,7 +78,7 @@ State random_points(std::uint32_t count, const Box& box, std::uint64_t seed) {
   return state;
 }
 
-// Growth heats the gas: this sets its thermal speed back to one.
+// Growth heats the gas: this scales its thermal speed back to 1.
 void cool(Gas& gas) {
   const double factor = 1 / std::sqrt(kinetic_energy(gas.particles));
   for (Particle& p : gas.particles)

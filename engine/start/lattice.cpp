@@ -40,7 +40,7 @@ struct Triangular {
   double distance = 0;  // between nearest neighbours
 };
 
-// The lattice with enough sites for so many disks whose nearest neighbours are the farthest apart.
+// The lattice with at least `count` sites on which the nearest neighbours are farthest apart.
 Triangular triangular(std::uint32_t count, const Box& box) {
   Triangular best;
   for (std::uint64_t columns = 1; (columns - 1) * (columns - 1) < count; ++columns) {

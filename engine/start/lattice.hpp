@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Lattices of spheres and disks: where the particles of a new gas are, if the lattice fits.
+// Lattices of spheres and disks: the positions of the particles of a new gas, if the lattice fits.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The arithmetic that the promise of equal bits rests on: IEEE 754 doubles, each operation rounded
-// to a double at once, in the order in which it is written. engine/arithmetic.cmake refuses the
-// flags that break this before anything is compiled; this file refuses them wherever they come
-// from.
+// The arithmetic on which the promise of equal bits rests: IEEE 754 doubles, each operation rounded
+// to a double at once, in the order in which it is written. engine/arithmetic.cmake refuses flags
+// that break this before anything is compiled; this file refuses them wherever they come from.
 #pragma once
 
 #include <cfloat>

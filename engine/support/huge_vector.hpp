@@ -48,14 +48,15 @@ struct HugeAllocator {
     return (bytes + unit - 1) / unit * unit;
   }
 
-  // Directly from the kernel: memory that malloc returns may have been in use before, and then
-  // keeps its small pages, whatever madvise says (six sevenths of a gas of 500 000 particles did).
+  // Maps memory directly from the kernel: memory from malloc may have been in use before and then
+  // keeps its small pages, whatever madvise says (as six sevenths of a gas of 500 000 particles
+  // did).
   static void* map_huge(std::size_t bytes) {
     const std::size_t room = bytes + huge_page;
     void* const start =
         mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (start == MAP_FAILED) return nullptr;
-    // Keeps an aligned piece and returns the rest.
+    // Keeps an aligned piece and gives the rest back.
     const std::size_t before = (huge_page - reinterpret_cast<std::uintptr_t>(start)) % huge_page;
     char* const memory = static_cast<char*>(start) + before;
     if (before > 0) munmap(start, before);
@@ -68,8 +69,8 @@ struct HugeAllocator {
 template <class T>
 using HugeVector = std::vector<T, HugeAllocator<T>>;
 
-// Room for numbers that are written before they are read: it is not filled with zeros, which takes
-// as long as a pass over it.
+// Room for numbers that are written before they are read. It is not filled with zeros, which would
+// take as long as a pass over it.
 template <class T>
 class HugeRoom {
  public:

@@ -3,7 +3,7 @@
 // Portable random numbers: the same seed gives the same bits on every machine.
 //
 // Every use has a stream of its own, named here, so that a new use never changes the numbers of
-// another one. The distributions of std:: are not used: their output differs between libraries.
+// another. The distributions of std:: are not used, as their output differs between libraries.
 #pragma once
 
 #include <cstdint>
@@ -52,8 +52,8 @@ class Random {
     return drawn % count;
   }
 
-  // Standard normal, by C. F. F. Karney's algorithm N (ACM TOMS 42, 3 (2016)). It only compares
-  // uniform deviates, so it needs no logarithm, whose last bit differs between libraries.
+  // Standard normal, by C. F. F. Karney's algorithm N (ACM TOMS 42, 3 (2016)). The algorithm only
+  // compares uniform deviates, so it needs no logarithm, whose last bit differs between libraries.
   double normal() {
     for (;;) {
       int whole = 0;  // with probability ~ exp(-whole/2)
@@ -70,8 +70,8 @@ class Random {
   }
 
  private:
-  // True with the probability exp(-p), 0 <= p <= 1: this is the probability that the length of a
-  // descending run of uniform deviates that starts below p is even (J. von Neumann, 1951).
+  // True with the probability exp(-p), 0 <= p <= 1: the probability that a descending run of
+  // uniform deviates that starts below p has an even length (J. von Neumann, 1951).
   bool accept_exp(double p) {
     bool even = true;
     for (double last = p, u = uniform(); u < last; u = uniform()) {

@@ -5,7 +5,8 @@
 namespace haff::engine {
 namespace {
 
-// Some 100 microseconds of spinning, the last part of which lets other threads have the processor.
+// Some 100 microseconds of spinning, in the last part of which the thread yields the processor to
+// others.
 constexpr int spins = 4000;
 constexpr int yields = 50;
 

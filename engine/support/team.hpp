@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A team of threads that work on the parts of one job together, again and again.
+// A team of threads that work together on the parts of one job after another.
 //
 // A window of the parallel event loop takes a few hundred microseconds, so the threads wait for the
 // next job by spinning for about as long before they sleep.
@@ -29,7 +29,7 @@ class Team {
   // Calls job(k) for every k = 0 ... size() - 1, each on its own thread, and returns when all of
   // them are done. A job must not throw.
   void run(const std::function<void(unsigned)>& job);
-  // Within a job: returns when every thread of the team has come here.
+  // Called within a job: returns when every thread of the team has called it.
   void wait_for_all();
 
   // Divides 0 ... count - 1 among the threads: calls job(begin, end) for each part.
@@ -37,19 +37,19 @@ class Team {
   void for_parts(std::size_t count, const Job& job) {
     run([&](unsigned thread) { job(part(count, thread), part(count, thread + 1)); });
   }
-  // Where the part of a thread begins.
+  // The index at which the part of a thread begins.
   std::size_t part(std::size_t count, unsigned thread) const { return count * thread / size_; }
 
  private:
-  // `seen`: jobs that were begun before this thread was there.
+  // `seen`: the number of jobs that were begun before this thread existed.
   void serve(unsigned number, std::uint32_t seen);
 
   unsigned size_ = 1;
   const std::function<void(unsigned)>* job_ = nullptr;
-  std::atomic<std::uint32_t> jobs_ = 0;      // begun so far
+  std::atomic<std::uint32_t> jobs_ = 0;      // jobs begun so far
   std::atomic<std::uint32_t> busy_ = 0;      // threads that have not finished the present one
-  std::atomic<std::uint32_t> arrived_ = 0;   // threads that wait for all
-  std::atomic<std::uint32_t> meetings_ = 0;  // of all threads, so far
+  std::atomic<std::uint32_t> arrived_ = 0;   // threads that have called wait_for_all
+  std::atomic<std::uint32_t> meetings_ = 0;  // the number of times that all threads have met
   std::atomic<bool> stop_ = false;
   std::vector<std::thread> threads_;
 };

@@ -154,7 +154,7 @@ TEST_CASE("rough disks equal the reference, and stay in their plane") {
   State tilted = state;
   tilted.memory["spin"][4] = 1;
   CHECK_THROWS_WITH_AS(Simulation(rough(0.8, 0.5, 0.5), tilted),
-                       "the state remembers disks that turn out of their plane",
+                       "the state has disks that rotate about an axis in their plane",
                        std::invalid_argument);
 }
 
