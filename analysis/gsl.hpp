@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What every use of GSL in this room shares: errors become exceptions instead of aborting the
-// program, resources free themselves, and functions of one variable can be lambdas.
-// For the .cpp files of this room only.
+// Shared by all files of this room that use GSL: errors become exceptions instead of aborting the
+// program, resources free themselves, and functions of one variable can be lambdas. For the .cpp
+// files of this room only.
 #pragma once
 
 #include <gsl/gsl_errno.h>
@@ -16,7 +16,7 @@
 
 namespace haff::analysis::gsl {
 
-// GSL's own handler aborts. To be called before the first use that may fail.
+// GSL's own handler aborts the program. To be called before the first use of GSL that may fail.
 inline void report_errors() {
   gsl_set_error_handler_off();
 }
@@ -38,11 +38,11 @@ struct Free {
 template <class T, auto free>
 using Owned = std::unique_ptr<T, Free<free>>;
 
-// An exception must not cross the C functions of GSL that have called us: what is thrown in between
-// is kept, and thrown again once GSL has returned.
+// An exception must not cross the C functions of GSL that have called us: it is kept, and thrown
+// again once GSL has returned.
 class Caught {
  public:
-  // The status that GSL is given for it.
+  // Does the work, and returns the status for GSL.
   template <class Work>
   int status_of(Work&& work) noexcept {
     try {

@@ -10,8 +10,8 @@
 
 namespace haff::analysis {
 
-// int_a^b f(x) dx to the relative or absolute tolerance asked for, whichever is met first.
-// Throws std::runtime_error if neither is.
+// int_a^b f(x) dx to the relative or absolute tolerance asked for, whichever is met first. Throws
+// std::runtime_error if neither is met.
 template <class Function>
 double integral(const Function& f, double a, double b, double relative, double absolute) {
   constexpr std::size_t most_intervals = 400;

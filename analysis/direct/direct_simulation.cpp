@@ -28,31 +28,31 @@ namespace {
 
 using Velocity = std::array<double, 3>;
 
-// Largest relative speed that is tried, in units of sqrt(2 T), the standard deviation of each of
-// its components. Pairs beyond it are accepted always and so a little too rarely: one in 10^8 of a
-// Gaussian gas.
+// The largest relative speed that is tried, in units of sqrt(2 T), the standard deviation of each
+// of its components. Faster pairs are always accepted, and thus a little too rarely: one pair in
+// 10^8 in a Gaussian gas.
 constexpr double fastest = 6.5;
 
-// The energy, from which the largest speed follows, and the scale are looked at this often; T
-// changes by less than 2 % in between. [collisions per particle]
+// The interval after which the energy, from which the largest speed follows, and the scale are
+// computed again; T changes by less than 2 % in between. [collisions per particle]
 constexpr double round_length = 1.0 / 16;
 
-// Kicks of a thermostat, in the middle between multiples of it, so that T and a_2 at its multiples
-// are those of continuous noise to second order. [collisions per particle]
+// The interval between kicks of a thermostat. Kicks come halfway between its multiples, so that T
+// and a_2 at the multiples are those of continuous noise to second order. [collisions per particle]
 constexpr double kick_period = 1.0 / 16;
 
 // Velocities are scaled by a power of two when T has fallen so far that v^12 would underflow soon.
 constexpr int coldest_exponent = -40;  // of T
 
-// Pairs drawn per particle for the mean loss and rate of one sample: more would repeat what the
-// finite number of particles knows.
+// Pairs drawn per particle for the mean loss and rate of one sample: more pairs would add no
+// information, since the number of particles is finite.
 constexpr int pairs_per_particle = 1;
 
 // Control variates. v and v^3 of a pair are nearly linear in v^2 and v^4, whose means over all
-// pairs are known exactly: with T = 1,  v = square v^2 + fourth v^4 + rest,  and only the mean of
-// the rest is left to the pairs drawn. The coefficients are least squares for Gaussian velocities,
-// others would be right as well; what pairs add to the variance falls to 2 % (v) and 0.2 % (v^3) of
-// it.
+// pairs are known exactly: with T = 1, v = square v^2 + fourth v^4 + rest, and only the mean of the
+// rest has to be taken from the pairs drawn. The coefficients are least squares for Gaussian
+// velocities; others would be right as well. They reduce the variance that drawing pairs adds to
+// 2 % (v) and 0.2 % (v^3).
 struct Control {
   double square, fourth;
 };
@@ -124,8 +124,9 @@ class Realization {
       const double v2 = square(difference(i, j)) / unit2;
       const double v = std::sqrt(v2);
       speeds += v - v2 * (Known::speed.square + Known::speed.fourth * v2);
-      // Normal components of a head-on and a glancing collision in one: the impact parameter is
-      // uniform in the disk (of disks: on the line), and b and its opposite are both taken.
+      // Combines the normal components of a head-on and of a glancing collision: the impact
+      // parameter is uniform in the disk (on the line, for disks), and both b and its opposite are
+      // taken.
       const double b = random_.uniform();
       losses +=
           v * 0.5 * (loss(law, v * unit, b, i, j) + loss(law, v * unit, 1 - b, i, j)) / unit2 -
@@ -136,7 +137,7 @@ class Realization {
     speeds = speeds / drawn + Known::speed.square * mean2 + Known::speed.fourth * mean4;
     losses =
         losses / drawn + lost_share * (Known::cube.square * mean2 + Known::cube.fourth * mean4);
-    // A particle is no pair with itself: 1/N of all draws.
+    // A particle does not collide with itself: 1/N of all draws.
     const double gaussian_speed = std::sqrt(d == 2 ? std::numbers::pi : 16 / std::numbers::pi);
     result.rate_ratio = speeds / gaussian_speed / (1 - 1 / count());
     // <v_n^2> of collisions in a Gaussian gas is 4 T.
@@ -153,7 +154,7 @@ class Realization {
     return static_cast<std::int64_t>(std::llround(rounds * length * count() / 2));
   }
 
-  // Momentum zero, E = 1, clocks at zero; no particle has collided yet.
+  // Sets momentum to zero, E to 1 and the clocks to zero; no particle has collided yet.
   void start() {
     remove_momentum();
     const double scale = std::sqrt(2.0 / d / moments(velocity_, d).temperature);
@@ -174,7 +175,7 @@ class Realization {
       for (std::size_t axis = 0; axis < 3; ++axis) v[axis] -= sum[axis] / count();
   }
 
-  // The largest speed and the time between trials by the temperature of now.
+  // Sets the largest speed and the time between trials according to the present temperature.
   void look() {
     double temperature = moments(velocity_, d).temperature;
     if (std::ilogb(temperature) < coldest_exponent) {
@@ -204,23 +205,24 @@ class Realization {
 
   static double square(const Velocity& v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
-  // Uniform on the unit sphere (circle): a point of the ball, J. von Neumann's way.
+  // A direction, uniform on the unit sphere (circle), from a point in the ball as J. von Neumann
+  // did.
   Velocity direction() {
     for (;;) {
       Velocity r{};
       for (int axis = 0; axis < d; ++axis)
         r[static_cast<std::size_t>(axis)] = 2 * random_.uniform() - 1;
       const double r2 = square(r);
-      if (r2 > 1 || r2 < 1e-4) continue;  // the smallest would be rounded coarsely
+      if (r2 > 1 || r2 < 1e-4) continue;  // smaller vectors would be rounded coarsely
       const double inverse = 1 / std::sqrt(r2);
       for (double& component : r) component *= inverse;
       return r;
     }
   }
 
-  // Means of v^2/T and v^4/T^2 over all i and j, v = v_i - v_j, each particle with itself included:
+  // Means of v^2/T and v^4/T^2 over all i and j, v = v_i - v_j, including i = j:
   //   <v^2> = 2 <v_i^2>,   <v^4> = 2 <v_i^4> + 2 <v_i^2>^2 + 4 sum_ab <v_ia v_ib>^2,
-  // at momentum zero.
+  // at zero momentum.
   std::array<double, 2> mean_of_pairs(const Moments& now) const {
     std::array<std::array<double, d>, d> tensor{};
     for (const Velocity& v : velocity_)
@@ -239,7 +241,8 @@ class Realization {
 
   double age(std::size_t i, std::size_t j) const { return time_ - std::max(last_[i], last_[j]); }
 
-  // (1 - e^2) v_n^2 of a collision at speed v, v_n^2 = v^2 (1 - b^2) with b^2 uniform (of disks b).
+  // (1 - e^2) v_n^2 of a collision at speed v. v_n^2 = v^2 (1 - b^2) with b^2 uniform (b for
+  // disks).
   template <class Law>
   double loss(const Law& law, double v, double b, std::size_t i, std::size_t j) const {
     const double normal2 = v * v * (d == 2 ? 1 - b * b : 1 - b);
@@ -274,7 +277,7 @@ class Realization {
     }
   }
 
-  // White noise since the last kick, less what the centre of mass would take.
+  // Adds the white noise since the last kick, without that of the centre of mass.
   void kick() {
     const double variance = 2 * heating_ / d * (time_ - last_kick_) * count() / (count() - 1);
     const double width = std::sqrt(variance) / unit_;
@@ -291,7 +294,7 @@ class Realization {
   double pair_rate_;  // chi n sigma^(d-1) c_d
   std::vector<Velocity> velocity_;
   std::vector<double> last_;  // time of the last collision
-  double unit_ = 1;           // true velocity of a stored 1
+  double unit_ = 1;           // the true velocity that a stored 1 stands for
   double time_ = 0;
   double last_kick_ = 0;
   double top_speed_ = 0;
@@ -312,7 +315,7 @@ std::vector<DirectSample> run(Realization<d> realization, const Law& law, double
   return samples;
 }
 
-// Mean of one member over realizations, at one tau or over several.
+// The mean of one member over realizations, at one tau or over several.
 template <class Of>
 Estimate mean_of(const DirectRealizations& realizations, std::size_t first, std::size_t last,
                  const Of& of) {

@@ -8,16 +8,18 @@
 //   collision        v_1 -= (1+e)/2 (v.n) n,  v_2 += the same,  n with density ~ Theta(v.n) v.n
 //
 // G. A. Bird, Molecular Gas Dynamics and the Direct Simulation of Gas Flows (1994), sec. 11.1:
-// pairs are tried at the rate of a largest speed and accepted with |v| over it. J. J. Brey, M. J.
-// Ruiz-Montero and D. Cubero, Phys. Rev. E 54, 3664 (1996), did so with the cooling gas.
+// pairs are tried at the rate of a largest speed and accepted with the probability |v| over that
+// speed. J. J. Brey, M. J. Ruiz-Montero and D. Cubero, Phys. Rev. E 54, 3664 (1996), applied this
+// to the cooling gas.
 //
-// There is no structure and there are no correlations of velocities, so the result is the theory's
-// own, all orders of a_l included, where enskog_boltzmann.hpp is of first order in a_2. On the
-// clock tau, density and collision rate do not enter at constant e; chi sets the unit of time where
-// a law of restitution or a thermostat has one. To shuffle velocities changes nothing here.
+// There is no structure and there are no correlations of velocities, so the result is that of the
+// theory itself, including all orders of a_l, while enskog_boltzmann.hpp is of first order in a_2.
+// On the clock tau, density and collision rate do not enter at constant e; chi sets the unit of
+// time where a restitution law or a thermostat has one. Shuffling the velocities would change
+// nothing here.
 //
-// Error: statistical, given with each value, and of order 1/N: a_2 of a Gaussian is -2/(3N) in 3-d
-// at given energy.
+// Errors: statistical, given with each value, and of order 1/N: a_2 of a Gaussian gas is -2/(3N) in
+// 3-d at given energy.
 #pragma once
 
 #include <array>
@@ -45,7 +47,7 @@ struct SimulationSize {
   std::uint64_t seed = 1;
 };
 
-// What one realization is at one tau.
+// One realization at one tau.
 struct DirectSample {
   double time = 0;         // [sigma sqrt(m/E(0))]
   double temperature = 0;  // [E(0)]
@@ -55,14 +57,15 @@ struct DirectSample {
   double rate_ratio = 1;   // omega/omega_0 at this T
 };
 
-// Samples of one realization from a Gaussian with E(0) = 1, at tau that do not decrease. `stream`
-// tells realizations of one seed apart. Throws std::invalid_argument for a bad gas, fewer than two
-// particles or tau that are negative or out of order, std::domain_error where the law does.
+// Samples of one realization that starts from a Gaussian with E(0) = 1, at tau that do not
+// decrease. `stream` tells realizations of one seed apart. Throws std::invalid_argument for a bad
+// gas, for fewer than two particles, and for tau that are negative or out of order; throws
+// std::domain_error where the law does.
 std::vector<DirectSample> direct_realization(const HomogeneousGas& gas, std::span<const double> tau,
                                              std::uint32_t particles, std::uint64_t seed,
                                              std::uint64_t stream);
 
-// All realizations of a size, each in a stream of its own.
+// All realizations, each with random numbers from a stream of its own.
 using DirectRealizations = std::vector<std::vector<DirectSample>>;
 DirectRealizations direct_realizations(const HomogeneousGas& gas, std::span<const double> tau,
                                        const SimulationSize& size = {});
@@ -78,8 +81,8 @@ struct DirectPoint {
 std::vector<DirectPoint> direct_means(const DirectRealizations& realizations);
 
 // The state that no longer changes: each realization is averaged over its samples from `first` on,
-// and then the realizations. Time and temperature, which do change, are averaged likewise and mean
-// nothing except in a heated gas.
+// and then the realizations are averaged. Time and temperature do change, so their averages have no
+// meaning except in a heated gas.
 DirectPoint direct_plateau(const DirectRealizations& realizations, std::size_t first);
 
 }  // namespace haff::analysis

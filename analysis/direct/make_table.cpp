@@ -16,12 +16,12 @@ using namespace haff::analysis;
 
 namespace {
 
-// Realizations until the state no longer changes; and how many of these go on.
+// Realizations up to tau = 14, and how many of these go on.
 constexpr std::uint32_t realizations = 128, long_ones = 64;
 constexpr std::uint32_t particles = 100'000;
 constexpr std::uint64_t seed = 1;
 
-// By then a_2 is within 10^-5 of where it stays: it relaxes as exp(-tau/1.9).
+// By then a_2 is within 10^-5 of its final value: it relaxes as exp(-tau/1.9).
 constexpr double plateau_from = 15, plateau_until = 35;
 
 std::vector<double> times(double end) {

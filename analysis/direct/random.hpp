@@ -2,10 +2,10 @@
 
 // Random numbers of the direct simulation: the same seed gives the same bits on every machine.
 //
-// xoshiro256++ of D. Blackman and S. Vigna, ACM TOMS 47, 36 (2021), whose state is filled by
-// splitmix64, the generator that the authors recommend for it. A realization has a stream of its
-// own. Only integers, + - x / and square roots are used: the distributions of the C++ library
-// differ between libraries, and logarithms in their last bit.
+// xoshiro256++ of D. Blackman and S. Vigna, ACM TOMS 47, 36 (2021). Its state is filled by
+// splitmix64, the generator that the authors recommend for this. Each realization has a stream of
+// its own. Only integers, + - x / and square roots are used: the distributions of the C++ library
+// differ between libraries, as does the last bit of logarithms.
 #pragma once
 
 #include <array>
@@ -38,8 +38,8 @@ class Random {
   // Uniform in [0, 1), a multiple of 2^-53.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-  // Exponential with mean 1. J. von Neumann, Nat. Bur. Stand. Appl. Math. Ser. 12, 36 (1951): of
-  // falling runs of uniform numbers, those of odd length begin with x with density exp(-x).
+  // Exponential with mean 1. J. von Neumann, Nat. Bur. Stand. Appl. Math. Ser. 12, 36 (1951): among
+  // falling runs of uniform numbers, those of odd length begin with an x of density exp(-x).
   double exponential() {
     for (double whole = 0;; ++whole) {
       const double first = uniform();
@@ -64,8 +64,8 @@ class Random {
     }
   }
 
-  // The number of ones among 64 fair bits, less its mean, over its standard deviation 4: mean 0,
-  // variance 1, excess kurtosis -1/32. The sum of many of them is Gaussian.
+  // The number of ones among 64 fair bits, minus its mean, over its standard deviation 4: mean 0,
+  // variance 1, excess kurtosis -1/32. The sum of many such numbers is Gaussian.
   double bell() { return (std::popcount(bits()) - 32) / 4.0; }
 
  private:

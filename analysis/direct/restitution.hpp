@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Laws of restitution as the direct simulation uses them: e as a function of the normal relative
-// speed v [sqrt(E(0)/m)] and of the time since either partner's previous collision
-// [sigma sqrt(m/E(0))].
+// The restitution laws as the direct simulation uses them: e as a function of the normal relative
+// speed v [sqrt(E(0)/m)] and of the time since either partner's previous collision [sigma
+// sqrt(m/E(0))].
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ struct ThresholdRestitution {
 };
 
 // The TC model of S. Luding and S. McNamara, Granular Matter 1, 113 (1998): elastic if a partner's
-// previous collision is younger than t_c. In a homogeneous gas partners never meet twice in a row,
-// so only the Poisson statistics of collisions is left of what the model does.
+// previous collision is less than t_c ago. In a homogeneous gas partners never meet twice in a row,
+// so the effect comes from the Poisson statistics of collisions alone.
 struct ContactDurationRestitution {
   double e = 1;
   double t_c = 0;
@@ -58,7 +58,8 @@ using Restitution =
     std::variant<ConstantRestitution, ThresholdRestitution, ContactDurationRestitution,
                  ViscoelasticRestitution, PlasticRestitution>;
 
-// The e that gamma_0 is made of; 0 for laws that decide e by the speed alone, which have none.
+// The e from which gamma_0 is computed; 0 for laws that decide e by the speed alone, which have
+// none.
 double nominal_restitution(const Restitution& law);
 
 }  // namespace haff::analysis

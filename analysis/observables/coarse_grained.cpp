@@ -47,7 +47,7 @@ CoarseGrained coarse_grained(std::span<const Vector> position, std::span<const V
       double& u = field.velocity[axes * c + a];
       u = field.density[c] > 0 ? u / mass_in[c] : none;
     }
-  // Deviations from u itself: <v^2> - u^2 would lose digits where the flow is fast.
+  // Deviations are from u itself: <v^2> - u^2 would lose digits where the flow is fast.
   for (std::size_t i = 0; i < cell.size(); ++i)
     for (std::size_t a = 0; a < axes; ++a) {
       const double deviation = velocity[i][a] - field.velocity[axes * cell[i] + a];

@@ -41,14 +41,14 @@ Density density_of_free_times(std::span<const std::int64_t> counts, int per_unit
   Density result;
   if (all == 0) return result;
   const std::int64_t N = particles, resolution = 2 * std::int64_t{per_unit};
-  // The first k of a bin; of the first one it is 1, since no flight is over at once.
+  // The first k in a bin. The first bin begins with k = 1, since no free time is zero.
   const auto first = [&](std::int64_t bin) {
     return std::max<std::int64_t>(1, (bin * N + resolution - 1) / resolution);
   };
   for (std::size_t i = 0; i + 1 < counts.size(); ++i) {
     const auto bin = static_cast<std::int64_t>(i);
     const std::int64_t from = first(bin), to = first(bin + 1);
-    if (from == to) continue;  // so small a gas that no k falls here
+    if (from == to) continue;  // in a gas so small that no k falls into this bin
     const double width = 2 * static_cast<double>(to - from) / particles;
     result.x.push_back(static_cast<double>(from + to - 1) / particles);
     result.value.push_back(static_cast<double>(counts[i]) / (all * width));

@@ -16,7 +16,7 @@ SpeedDistribution speed_distribution(std::span<const Vector> velocity, int d) {
   const double v0_squared = 2 * moments(velocity, d).temperature;
   if (!(v0_squared > 0)) throw std::invalid_argument("a speed distribution of a gas at rest");
 
-  std::vector<std::uint64_t> number(speed_bins + 1);  // and those beyond
+  std::vector<std::uint64_t> number(speed_bins + 1);  // and one for speeds beyond them
   for (const Vector& v : velocity) {
     const double planar = v[0] * v[0] + v[1] * v[1];
     const double square = d == 2 ? planar : planar + v[2] * v[2];

@@ -18,13 +18,13 @@ inline constexpr int speed_bins = 80;
 
 struct SpeedDistribution {
   std::vector<double> c;    // middle of each bin
-  std::vector<double> rho;  // mean of rho over the shell of velocities between its ends
+  std::vector<double> rho;  // mean of rho over the shell of velocities in the bin
 };
 
-// Of the first d components of all velocities; those beyond c = 8 are in no bin. A bin's relative
-// standard error is 1/sqrt(particles in it); rho of a shell differs from rho at its middle by less
-// than 0.7 % below c = 2, 3 % at c = 4. Throws std::invalid_argument without velocities, or if all
-// are zero.
+// The distribution of the first d components of all velocities; those beyond c = 8 are in no bin. A
+// bin's relative standard error is 1/sqrt(particles in it); rho of a shell differs from rho at its
+// middle by less than 0.7 % below c = 2 and by 3 % at c = 4. Throws std::invalid_argument if there
+// are no velocities, or if all are zero.
 SpeedDistribution speed_distribution(std::span<const Vector> velocity, int d = 3);
 
 }  // namespace haff::analysis

@@ -14,7 +14,7 @@
 namespace haff::analysis {
 namespace {
 
-// sum_i p_i p_i, what |p(k)|^2 would be without correlations.
+// sum_i p_i p_i, the value of p(k) p*(k) without correlations.
 using Tensor = std::array<std::array<double, 3>, 3>;
 
 template <class Momentum>
@@ -57,7 +57,7 @@ EnergySpectrum energy_spectrum(std::span<const Vector> position, std::span<const
   for (std::size_t a = 0; a < axes; ++a) self_trace += self[a][a];
   const auto axis = distortions(mesh.cells);
   const auto at = [&](int wave) { return axis[static_cast<std::size_t>(std::abs(wave))]; };
-  const std::size_t shift = 3 - axes;  // of d = 2 the first wave number is empty
+  const std::size_t shift = 3 - axes;  // for d = 2 the first wave number is empty
 
   const auto shells = static_cast<std::size_t>(mesh.cells / 4);
   std::vector<double> along(shells), across(shells), rotation(shells), k_sum(shells), count(shells);

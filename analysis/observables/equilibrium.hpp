@@ -17,8 +17,8 @@ namespace haff::analysis {
 double equilibrium_laguerre(int l, double particles, int d = 3);
 
 // Whether a_2, a_3 and a_4 are each within 4 standard errors (laguerre_noise) of their mean at
-// equilibrium. One that does not exist (a gas at rest) is not. An equilibrium is taken for none
-// once in some 10^4 checks, since a_4 has heavy tails at small N.
+// equilibrium. False if one does not exist (a gas at rest). A gas at equilibrium fails this check
+// once in some 10^4 times, since a_4 has heavy tails at small N.
 bool is_equilibrated(const std::array<std::optional<double>, 3>& a2_to_a4, double particles,
                      int d = 3);
 

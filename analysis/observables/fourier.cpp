@@ -30,7 +30,7 @@ Fourier::Fourier(const Mesh& mesh)
       field_(allocated<double>(mesh_.size())),
       modes_(allocated<std::complex<double>>(mode_count())) {
   const std::array<int, 3> sides{mesh.cells, mesh.cells, mesh.cells};
-  auto* modes = reinterpret_cast<fftw_complex*>(modes_.get());  // FFTW's own advice
+  auto* modes = reinterpret_cast<fftw_complex*>(modes_.get());  // as FFTW's manual advises
   forward_.reset(fftw_plan_dft_r2c(mesh.d, sides.data(), field_.get(), modes, flags));
   backward_.reset(fftw_plan_dft_c2r(mesh.d, sides.data(), modes, field_.get(), flags));
   if (!forward_ || !backward_) throw std::bad_alloc();

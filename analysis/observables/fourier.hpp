@@ -3,9 +3,8 @@
 // Discrete Fourier transform of a real field on a periodic mesh, by FFTW. For the .cpp files of
 // this room only.
 //
-// The plan is estimated, not measured, and uses neither wisdom, threads nor SIMD codelets: equal
-// fields have equal transforms, to the last bit, whatever the processor and whenever they are
-// computed.
+// The plan is estimated, not measured, and uses neither wisdom, threads nor SIMD codelets. Equal
+// fields then have equal transforms, to the last bit, on any processor and at any time.
 #pragma once
 
 #include <fftw3.h>
@@ -23,16 +22,16 @@ class Fourier {
  public:
   explicit Fourier(const Mesh& mesh);
 
-  // The field, cells as in Mesh; and its transform sum_x f(x) exp(-ikx), modes as in FFTW: along
-  // the last axis only 0 ... cells/2. Each call of a transform spoils its input.
+  // The field, with cells as in Mesh, and its transform sum_x f(x) exp(-ikx), with modes as in
+  // FFTW: along the last axis only 0 ... cells/2. Each transform overwrites its input.
   std::span<double> field() { return {field_.get(), mesh_.size()}; }
   std::span<std::complex<double>> modes() { return {modes_.get(), mode_count()}; }
 
   void forward() { fftw_execute(forward_.get()); }
   void backward() { fftw_execute(backward_.get()); }  // without the factor 1/size
 
-  // Calls visit(mode number, wave numbers (a, b, c) of -cells/2 ... cells/2, weight): weight is the
-  // number of modes that this one stands for, 2 where its complex conjugate is left out.
+  // Calls visit(mode number, wave numbers (a, b, c) of -cells/2 ... cells/2, weight), where weight
+  // is the number of modes that this one stands for: 2 where its complex conjugate is left out.
   template <class Visit>
   void for_each_mode(Visit&& visit) const {
     const int half = mesh_.cells / 2 + 1;
@@ -47,7 +46,7 @@ class Fourier {
   }
 
  private:
-  // Of d = 2 the first axis is empty: wave numbers are (0, a, b).
+  // For d = 2 the first axis is empty: wave numbers are (0, a, b).
   int folded(int i) const { return 2 * i > mesh_.cells ? i - mesh_.cells : i; }
   std::size_t mode_count() const {
     const auto side = static_cast<std::size_t>(mesh_.cells);
@@ -70,7 +69,7 @@ class Fourier {
 constexpr double smallest_spectral_box = 8;
 
 // The number of cells along an axis of a mesh for transforms, from the number of smallest cells
-// that fit: at most 128 (then an array takes 17 MB), and one that FFTW is fast at (2^a 3^b 5^c).
+// that fit: at most 128 (then an array takes 17 MB), and one for which FFTW is fast (2^a 3^b 5^c).
 int transform_cells(double smallest_cells);
 
 }  // namespace haff::analysis

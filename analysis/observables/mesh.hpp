@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A periodic box divided into equal cubic cells: what particles in space are counted on.
+// A periodic box divided into equal cubic cells, in which particles are counted.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace haff::analysis {
 
-using Vector = std::array<double, 3>;  // of a planar gas the third component is ignored
+using Vector = std::array<double, 3>;  // in a planar gas the third component is ignored
 
 struct Mesh {
   double box = 0;  // side L [sigma]
@@ -22,12 +22,12 @@ struct Mesh {
     return side * side * (d == 3 ? side : 1);
   }
 
-  // Along one axis, of x in [0, L).
+  // The cell along one axis that holds x in [0, L).
   int place(double x) const {
     return std::clamp(static_cast<int>(x * (cells / box)), 0, cells - 1);
   }
 
-  // Number of the cell at (i, j, k): the last axis runs fastest.
+  // The number of the cell at (i, j, k). The last axis runs fastest.
   std::size_t number(const std::array<int, 3>& cell) const {
     std::size_t number = 0;
     for (int axis = 0; axis < d; ++axis)
@@ -41,7 +41,8 @@ struct Mesh {
   }
 };
 
-// The most cells along an axis that still hold this many of N particles on average.
+// The largest number of cells along an axis with at least this many of N particles per cell on
+// average.
 inline int cells_with(double particles_each, double particles, int d) {
   const auto enough = [&](int cells) {
     const double side = cells;

@@ -12,8 +12,8 @@
 namespace haff::analysis {
 namespace {
 
-// Sums run in eight independent lanes, which compilers vectorize without reordering anything,
-// and in blocks, which keeps rounding errors from growing with N.
+// Sums run in eight independent lanes, which compilers vectorize without reordering, and in blocks,
+// so that rounding errors do not grow with N.
 constexpr std::size_t lanes = 8;
 constexpr std::size_t block = 512 * lanes;
 

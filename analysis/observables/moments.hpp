@@ -28,19 +28,19 @@ struct Moments {
   LaguerreCoefficients laguerre{};
 };
 
-// Moments of the first d components of every velocity. One pass; the sums run in a fixed order,
-// so the same array gives the same bits on every machine. Error: rounding, about 1e-14 relative
-// in T and absolute in a_l. Velocities scaled by 2^k give a temperature scaled by 4^k and the
-// same coefficients, exactly. All velocities zero: T = 0 and NaN coefficients. Throws
+// Moments of the first d components of every velocity, in one pass. The sums run in a fixed order,
+// so the same array gives the same bits on every machine. Error: rounding, about 1e-14 relative in
+// T and absolute in a_l. Velocities scaled by 2^k give a temperature scaled by 4^k and the same
+// coefficients, exactly. If all velocities are zero, T = 0 and the coefficients are NaN. Throws
 // std::invalid_argument for an empty array or d other than 2 or 3.
 Moments moments(std::span<const std::array<double, 3>> velocity, int d = 3);
 
 // Coefficients from the moments <c^2k>, k = 0 ... 6, of a distribution of c = v/v_0.
 LaguerreCoefficients laguerre_from_moments(const LaguerreCoefficients& c_moments, int d = 3);
 
-// Standard error of a_l from N independent Gaussian velocities:
-// sqrt(l! Gamma(d/2) / (Gamma(l + d/2) N)), sqrt(8/(15 N)) for a_2 in 3-d. (Laguerre polynomials
-// are orthogonal; what the measured temperature does to a_l is of order 1/N.)
+// Standard error of a_l from N independent Gaussian velocities: sqrt(l! Gamma(d/2) / (Gamma(l +
+// d/2) N)), which is sqrt(8/(15 N)) for a_2 in 3-d. (Laguerre polynomials are orthogonal; the use
+// of the measured temperature changes a_l by order 1/N.)
 double laguerre_noise(int l, double particles, int d = 3);
 
 }  // namespace haff::analysis

@@ -13,29 +13,29 @@ namespace {
 
 constexpr double smallest_pair_box = 4;  // [sigma]
 
-// (4 - 1) / 0.05 is 60 bins, however it is rounded.
+// Tolerance for counting bins: (4 - 1) / 0.05 is 60 bins, however it is rounded.
 constexpr double rounding = 1e-9;
 
-// Particles in touch overlap by rounding, of less than this; what overlaps by more is no pair of
-// hard particles. [sigma]
+// Particles in contact overlap by less than this, because of rounding; a pair that overlaps by more
+// is not one of hard particles. [sigma]
 constexpr double overlap = 1e-6;
 
-// A pair that has just collided is as near to contact as rounding lets it be; one that collided
-// before it has come apart by 1e-5 and more. At random moments no pair is so near. [sigma]
+// A pair that has just collided is as near to contact as rounding allows; a pair that collided
+// earlier has separated by 1e-5 or more. At random moments no pair is so near. [sigma]
 constexpr double in_touch = 1e-9;
 
 double reach_in(double box, double reach = pair_reach) {
   return std::min(reach, box / 2);
 }
 
-// W of the header, of x in 0 ... 1.
+// W of the header, for x in 0 ... 1.
 double contact_weight(double x) {
   const double t = 2 * x - 1;
   const double square = t * t;
   return (1 - 3 * t + 5 * (1.5 * square - 0.5) - 7 * (2.5 * square - 1.5) * t) / contact_range;
 }
 
-// Pairs in bins and at contact, each in units of what particles anywhere would have.
+// Pairs in bins and at contact, each relative to the number for particles at random positions.
 class Counts {
  public:
   Counts(double box, int d, double contact, double pairs, double reach)

@@ -5,7 +5,8 @@
 namespace haff::analysis {
 namespace {
 
-// Cells of half the reach: 125 of them hold fewer particles out of reach than 27 of its full width.
+// Cells have half the width of the reach: 125 of them hold fewer particles out of reach than 27
+// cells of the full width.
 constexpr double cells_in_reach = 2;
 
 }  // namespace
@@ -15,11 +16,11 @@ Pairs::Pairs(std::span<const Vector> position, double box, int d, double reach)
   if (!(reach > 0 && reach <= box / 2))
     throw std::invalid_argument("pairs are told apart up to half of the box");
   const auto particles = static_cast<double>(position.size());
-  // A dilute gas has no use for more cells than particles.
+  // More cells than particles would gain nothing in a dilute gas.
   const int most = cells_with(1, particles, d);
   mesh_.cells = std::max(1, static_cast<int>(std::min<double>(most, box / reach * cells_in_reach)));
   const int span = static_cast<int>(std::ceil(reach / mesh_.cell_side()));
-  has_cells_ = mesh_.cells > 2 * span;  // no cell is a neighbour of another in two ways
+  has_cells_ = mesh_.cells > 2 * span;  // no cell is a neighbour of another in two directions
 
   std::vector<std::size_t> cell(position.size());
   first_.assign(mesh_.size() + 1, 0);
@@ -43,7 +44,7 @@ Pairs::Pairs(std::span<const Vector> position, double box, int d, double reach)
     for (int j = -span; j <= span; ++j)
       for (int k = -depth; k <= depth; ++k) {
         const bool comes_later = i > 0 || j > 0 || (j == 0 && k > 0);
-        const auto apart = [&](int cells) {  // at least, along an axis
+        const auto apart = [&](int cells) {  // the smallest distance along an axis
           return std::max(0, std::abs(cells) - 1) * mesh_.cell_side();
         };
         const double gap2 = apart(i) * apart(i) + apart(j) * apart(j) + apart(k) * apart(k);

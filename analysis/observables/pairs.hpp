@@ -15,8 +15,8 @@
 
 namespace haff::analysis {
 
-// Particles of a periodic box, sorted into cells. Which pairs are visited depends on neither the
-// cells nor the order of the particles; in which order does.
+// The particles of a periodic box, sorted into cells. The set of pairs visited depends on neither
+// the cells nor the order of the particles; the order of the visits does.
 class Pairs {
  public:
   // Positions in [0, L). Throws std::invalid_argument if the reach is more than half of the box,
@@ -70,7 +70,7 @@ class Pairs {
   }
 
  private:
-  // What is added to b to make it the image that is nearest to a.
+  // The shift of b to its image that is nearest to a.
   Vector nearest(const Vector& a, const Vector& b) const {
     Vector shift{};
     for (std::size_t k = 0; k < 3; ++k)
@@ -81,10 +81,10 @@ class Pairs {
   Mesh mesh_;
   double reach_;
   bool has_cells_ = false;
-  std::vector<Vector> position_;  // cell by cell; of a planar gas with z = 0
+  std::vector<Vector> position_;  // cell by cell; z = 0 in a planar gas
   std::vector<std::uint32_t> number_;
-  std::vector<std::size_t> first_;           // of each cell, and one beyond the last
-  std::vector<std::array<int, 3>> offsets_;  // half of the cells around, each pair of cells once
+  std::vector<std::size_t> first_;  // the first particle of each cell, and one beyond the last
+  std::vector<std::array<int, 3>> offsets_;  // half of the neighbours: each pair of cells once
 };
 
 }  // namespace haff::analysis

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Sets that grow together: cells, or particles, of one cluster. For the .cpp files of this room
-// only.
+// Sets that are merged step by step: the cells, or the particles, of one cluster. For the .cpp
+// files of this room only.
 #pragma once
 
 #include <algorithm>

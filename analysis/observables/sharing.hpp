@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Particles shared out among the nearest points of a mesh, "cloud in cell", and what that does to a
-// mode: Y. P. Jing, Astrophys. J. 620, 559 (2005), eqs. 17 to 21 with p = 2. For the .cpp files of
-// this room only.
+// Particles shared out among the nearest points of a mesh, "cloud in cell", and the effect of this
+// on a mode: Y. P. Jing, Astrophys. J. 620, 559 (2005), eqs. 17 to 21 with p = 2. For the .cpp
+// files of this room only.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ inline Shares shares(double x, const Mesh& mesh) {
   return {{below, below + 1 == mesh.cells ? 0 : below + 1}, {1 - above, above}};
 }
 
-// The field of what each particle i carries, weight(i), in place of what was there.
+// Replaces the field by the sum of the shares of all particles, where particle i carries weight(i).
 template <class Weight>
 void share_out(std::span<const Vector> position, const Mesh& mesh, std::span<double> field,
                Weight&& weight) {
@@ -46,8 +46,8 @@ void share_out(std::span<const Vector> position, const Mesh& mesh, std::span<dou
   }
 }
 
-// What sharing out does along one axis to the power of a mode, and what is folded into the power
-// of uncorrelated particles.
+// The effect of sharing out along one axis on the power of a mode, and the power of uncorrelated
+// particles that is folded into the mode.
 struct Distortion {
   double power = 1;   // sinc^4
   double folded = 1;  // 1 - (2/3) sin^2
@@ -61,7 +61,7 @@ inline Distortion distortion(int wave, int cells) {
   return {sinc * sinc * sinc * sinc, 1 - 2.0 / 3 * sine * sine};
 }
 
-// Of the wave numbers 0 ... cells/2 along an axis.
+// The distortions of the wave numbers 0 ... cells/2 along an axis.
 inline std::vector<Distortion> distortions(int cells) {
   std::vector<Distortion> axis;
   axis.reserve(static_cast<std::size_t>(cells / 2) + 1);

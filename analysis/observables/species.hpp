@@ -9,9 +9,9 @@
 
 namespace haff::analysis {
 
-// Temperatures of the first and of the second species, in units of mass times velocity squared.
-// `is_second` says of each velocity to which species it belongs; lengths must agree
-// (std::invalid_argument). NaN of a species that has no particle.
+// The temperatures of the first and of the second species, in units of mass times velocity squared.
+// `is_second` says for each velocity whether it belongs to the second species; the lengths must
+// agree (std::invalid_argument). NaN for a species that has no particle.
 std::array<double, 2> species_temperatures(std::span<const std::array<double, 3>> velocities,
                                            const std::vector<bool>& is_second,
                                            std::array<double, 2> mass, int d = 3);

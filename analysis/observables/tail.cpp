@@ -13,7 +13,7 @@
 namespace haff::analysis {
 namespace {
 
-// Speeds c beyond tail_begin, increasing: sums over them do not depend on the order of particles.
+// Speeds c beyond tail_begin, sorted, so that sums do not depend on the order of the particles.
 std::vector<double> fast_ones(std::span<const Vector> velocity, double v0_squared, int d) {
   std::vector<double> speeds;
   for (const Vector& v : velocity) {
@@ -25,7 +25,7 @@ std::vector<double> fast_ones(std::span<const Vector> velocity, double v0_square
   return speeds;
 }
 
-// The point between `low` and `high` where f, which has one maximum there, is greatest.
+// The point between `low` and `high` at which f, which has one maximum there, is greatest.
 template <class Function>
 double where_greatest(double low, double high, Function&& f) {
   constexpr double golden = 0.6180339887498949;
@@ -51,9 +51,10 @@ double where_greatest(double low, double high, Function&& f) {
 }
 
 // ln of int_3^inf c^(d-1) exp(-A c^alpha) dc, with t = A 3^alpha and c = 3 (1 + x): exp(-t) is
-// taken out, and the rest is a sum over steps of Simpson's rule.
+// factored out, and the rest is summed by Simpson's rule.
 double log_norm(double t, double alpha, int d) {
-  // The integrand falls by e over about 1/(t alpha): forty of these are all of it. [relative]
+  // The integrand falls by a factor of e over about 1/(t alpha); forty times this range holds all
+  // of it. [relative]
   const double far = std::min(40 / (t * alpha), 1e3);
   constexpr int steps = 200;
   const double step = std::log1p(far) / steps;  // equal steps of ln c
@@ -69,7 +70,7 @@ double log_norm(double t, double alpha, int d) {
 double exponent_of(const std::vector<double>& speeds, int d) {
   const auto likelihood = [&](double log_t, double alpha) {
     const double t = std::exp(log_t);
-    double mean = 0;  // of (c/3)^alpha
+    double mean = 0;  // the mean of (c/3)^alpha
     for (const double c : speeds) mean += std::pow(c / tail_begin, alpha);
     mean /= static_cast<double>(speeds.size());
     return -t * mean - log_norm(t, alpha, d);

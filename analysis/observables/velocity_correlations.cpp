@@ -27,7 +27,7 @@ class Shells {
 
   int count() const { return count_; }
 
-  // sum over the R of each shell of field(R) weight(R).
+  // The sum of field(R) weight(R) over the R of each shell.
   template <class Weight>
   std::vector<double> sums(std::span<const double> field, Weight&& weight) const {
     std::vector<double> sums(static_cast<std::size_t>(count_));
@@ -90,7 +90,7 @@ class Cells {
   std::vector<std::uint32_t> cell_;
 };
 
-// The correlation of two fields over all separations, left in fourier.field(): its even part.
+// The even part of the correlation of two fields over all separations, left in fourier.field().
 void correlate(Fourier& fourier, const Modes& a, const Modes& b, double size) {
   const auto modes = fourier.modes();
   for (std::size_t k = 0; k < modes.size(); ++k)
@@ -98,7 +98,7 @@ void correlate(Fourier& fourier, const Modes& a, const Modes& b, double size) {
   fourier.backward();
 }
 
-// (sin x / x), x = half a cell in phase.
+// sin x / x, where x is the phase across half a cell.
 double window(int wave, int cells) {
   if (wave == 0) return 1;
   const double x = std::numbers::pi * wave / cells;
@@ -150,7 +150,7 @@ VelocityCorrelations velocity_correlations(std::span<const Vector> position,
   for (std::size_t a = 0; a < axes; ++a)
     for (std::size_t b = a; b < axes; ++b) {
       correlate(fourier, momentum[a], momentum[b], size);
-      const std::size_t shift = 3 - axes;  // of d = 2 the first component of R is empty
+      const std::size_t shift = 3 - axes;  // for d = 2 the first component of R is empty
       const double times = a == b ? 1 : 2;
       const auto projected =
           shells.sums(fourier.field(), [&](const std::array<int, 3>& R, int square) {
@@ -170,7 +170,7 @@ VelocityCorrelations velocity_correlations(std::span<const Vector> position,
       ones, [](const std::array<int, 3>& /*R*/, int square) { return std::sqrt(square); });
   for (std::size_t s = 0; s < pairs.size(); ++s) {
     const double count = std::round(pairs[s]);
-    if (count < 1) continue;  // a handful of particles
+    if (count < 1) continue;  // in a gas of a few particles
     result.r.push_back(mesh.cell_side() * distances[s] / separations[s]);
     result.parallel.push_back(along[s] / count);
     result.perpendicular.push_back((all[s] - along[s]) / count / (d - 1));

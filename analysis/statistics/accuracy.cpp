@@ -84,7 +84,7 @@ Slope scatter_slope(std::span<const GroupScatter> scatter) {
 std::size_t realizations_needed(double deviation, double se) {
   if (!(se > 0)) throw std::invalid_argument("a standard error must be above 0");
   const double needed = std::ceil(std::pow(deviation / se, 2));
-  constexpr double most = 1e15;  // more than can be run, and still a whole number
+  constexpr double most = 1e15;  // more than can be run, and still exact as a double
   return std::max<std::size_t>(2, static_cast<std::size_t>(std::min(needed, most)));
 }
 

@@ -11,8 +11,8 @@
 
 namespace haff::analysis {
 
-// y at `at`, on the straight line between the points beside it; x increases. Nothing outside
-// [x.front(), x.back()]. Throws std::invalid_argument if lengths differ.
+// y at `at`, on the straight line between the neighbouring points; x increases. Nothing outside
+// [x.front(), x.back()]. Throws std::invalid_argument if the lengths differ.
 inline std::optional<double> interpolated(std::span<const double> x, std::span<const double> y,
                                           double at) {
   if (x.size() != y.size())

@@ -11,14 +11,14 @@ namespace haff::analysis {
 struct PowerLaw {
   double exponent = 0;  // of tau; about -3 ... -4
   // From the scatter around the line. Samples of one series are correlated, so this is a lower
-  // bound: the spread of the exponents of independent realizations is the honest error.
+  // bound: the spread of the exponents of independent realizations is the true error.
   double standard_error = 0;
   double prefactor = 0;  // T at tau = 1 [E(0)]
 };
 
-// Straight line through ln T against ln tau for from <= tau <= to (GSL's linear least squares, all
-// samples alike). Throws std::invalid_argument if lengths differ, or if fewer than three samples
-// with tau > 0 and T > 0 are in the range.
+// A straight line through ln T against ln tau for from <= tau <= to (GSL's linear least squares,
+// with equal weights). Throws std::invalid_argument if the lengths differ, or if fewer than three
+// samples with tau > 0 and T > 0 are in the range.
 PowerLaw late_exponent(std::span<const double> tau, std::span<const double> temperature,
                        double from, double to);
 

@@ -23,21 +23,22 @@ std::vector<double> halved(std::span<const double> values) {
   return pairs;
 }
 
-// Variance of the mean of `count` neighbours over that of one value, in a series whose correlations
-// fall as rho^lag.
+// The variance of the mean of `count` neighbours relative to that of one value, in a series whose
+// correlations fall as rho^lag.
 double variance_of_mean(double rho, double count) {
   const double rest = 1 - rho;
   return ((1 + rho) / rest - 2 * rho * (1 - std::pow(rho, count)) / (count * rest * rest)) / count;
 }
 
-// The rho with which means of `length` neighbours scatter `ratio` times as much as single values
-// [variances], both about the mean of the same `count` values.
+// The rho with which means of `length` neighbours have `ratio` times the variance of single values,
+// both about the mean of the same `count` values.
 double correlation_of(double ratio, double length, double count) {
   const auto expected = [&](double rho) {
     const double known = variance_of_mean(rho, count);
     return (variance_of_mean(rho, length) - known) / (1 - known);
   };
-  // Correlated over an eighth of the series: with more its own length says nothing.
+  // Correlations extend over an eighth of the series at most: a series does not determine longer
+  // ones.
   double low = 0, high = std::max(0.0, 1 - 8 / count);
   if (expected(low) >= ratio) return low;
   if (expected(high) <= ratio) return high;
@@ -63,7 +64,7 @@ Estimate estimate(std::span<const double> values) {
 
 BlockEstimate block_estimate(std::span<const double> series) {
   if (series.size() < 2) throw std::invalid_argument("block average of fewer than two values");
-  constexpr std::size_t fewest_blocks = 8;  // below, the error's own error exceeds a quarter
+  constexpr std::size_t fewest_blocks = 8;  // with fewer, the error of the error exceeds a quarter
   const Estimate naive = estimate(series);
   BlockEstimate best{.estimate = naive};
   const auto long_enough = [&] {
@@ -82,7 +83,7 @@ BlockEstimate block_estimate(std::span<const double> series) {
   if (naive.standard_error > 0) {
     const double size = static_cast<double>(series.size());
     const auto length = static_cast<double>(best.block_length);
-    const auto scatter = [](const Estimate& of) {  // variance of one value
+    const auto scatter = [](const Estimate& of) {  // the variance of one value
       return of.standard_error * of.standard_error * static_cast<double>(of.count);
     };
     const double rho = correlation_of(scatter(best.estimate) / scatter(naive), length, size);

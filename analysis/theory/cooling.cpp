@@ -64,14 +64,14 @@ double mean_temperature(std::span<const double> time, std::span<const double> te
   };
 
   // With the straight line l(t) between the last two nodes and w = 1/l, dt/l^2 is proportional to
-  // dw: what is left to integrate is (l/y)^2, which is 1 where Haff's law holds.
+  // dw. The integrand is then (l/y)^2, which is 1 where Haff's law holds.
   const double begin = time[nodes - 2], end = time[nodes - 1];
   const double slope = (after - before) / (end - begin);
   double mean = 0;
   for (std::size_t k = 0; k < gauss_place.size(); ++k) {
     const double part = 0.5 * (1 + gauss_place[k]);
     const double w = 1 / before + part * (1 / after - 1 / before);
-    // t from w; between equal temperatures w is constant, and t as good as any measure.
+    // t from w. Between equal temperatures w is constant, and t takes its place.
     const double t =
         after == before ? begin + part * (end - begin) : begin + (1 / w - before) / slope;
     const double ratio = 1 / (w * interpolated(t));
@@ -92,7 +92,7 @@ std::optional<double> tau_c(std::span<const double> tau, std::span<const double>
   if (tau.size() != temperature.size()) {
     throw std::invalid_argument("tau_c: as many temperatures as times are needed");
   }
-  // In logarithms throughout: T_Haff itself underflows in long runs.
+  // Only logarithms are used: T_Haff itself underflows in long runs.
   const auto excess = [&](std::size_t i) {
     return std::log(temperature[i] / initial_temperature(d)) + 2 * gamma0(e, d) * tau[i];
   };

@@ -50,7 +50,7 @@ VelocityCorrelation velocity_correlation(const Gas& gas, double r, double tau, F
   const double geometry = 1 / (2 * std::pow(pi, 0.5 * d) * std::pow(r, d));
   const bool compressible = fluid == Fluid::compressible;
 
-  const auto vortex = [&](double s) {  // the part of both, per sigma_l (d-1)^[l = par]
+  const auto vortex = [&](double s) {  // the term of both components, over sigma_l (d-1)^[l = par]
     double gamma = lower_gamma(0.5 * d, x2_perp / (4 * s));
     if (compressible) gamma -= lower_gamma(0.5 * d, x2_par / (4 * s));
     return geometry * gamma;

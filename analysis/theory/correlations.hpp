@@ -14,9 +14,9 @@
 //   sigma_l (d-1)^[l = par] / (2 pi^(d/2) r^d) (gamma(d/2, x_perp^2/4s) - gamma(d/2, x_par^2/4s))
 //   + xi_l^-d exp(-x_l^2 / 4s) / (4 pi s)^(d/2)        for both l.
 //
-// The superscript + says: without the self part at r = 0.
-// T. P. C. van Noije, M. H. Ernst, R. Brito and J. A. G. Orza, Phys. Rev. Lett. 79, 411 (1997);
-// R. Kawahara and H. Nakanishi, cond-mat/0309130.
+// The superscript + means: without the self part at r = 0. T. P. C. van Noije, M. H. Ernst, R.
+// Brito and J. A. G. Orza, Phys. Rev. Lett. 79, 411 (1997); R. Kawahara and H. Nakanishi,
+// cond-mat/0309130.
 #pragma once
 
 #include "analysis/theory/gas.hpp"
@@ -30,17 +30,17 @@ struct VelocityCorrelation {
   double perpendicular = 0;  // G_perp^+ [E(0)/m]
 };
 
-// At distance r > 0 [sigma] and time tau. Quadrature error below 1e-9 relative or 1e-14 of
-// T_Haff / (m n sigma^d). Throws std::invalid_argument at e = 1, r <= 0 or tau < 0.
+// The correlation at distance r > 0 [sigma] and time tau. Quadrature error below 1e-9 relative or
+// 1e-14 of T_Haff / (m n sigma^d). Throws std::invalid_argument at e = 1, r <= 0 or tau < 0.
 VelocityCorrelation velocity_correlation(const Gas& gas, double r, double tau, Fluid fluid);
 
-// The cutoff of the linear theory, k_M = 2 pi n^(1/d) b, with the one number that was fitted for
-// all e and n.
+// The cutoff of the linear theory, k_M = 2 pi n^(1/d) b, where b is one number fitted for all e and
+// n.
 inline constexpr double cutoff_b = 0.30;
 double cutoff_wavenumber(double n, double b = cutoff_b, int d = 3);  // [1/sigma]
 
 // Growth of Tr G^+(0) on the clock s = 2 gamma_0 tau: Tr G^+(0) = T_Haff strength int_0^s ds'
-// trace_density(s'). What both the trace and the energy equation are made of.
+// trace_density(s'). Both the trace and the energy equation use it.
 //   strength      = (d-1) Omega_d / (m n (2 pi xi_perp)^d)
 //   trace_density = e^s / (2 s^(d/2)) gamma(d/2, s xi_perp^2 k_M^2), q^d / d at s = 0
 struct TraceGrowth {

@@ -29,10 +29,10 @@ class Solution {
                                                 tolerance, tolerance));
   }
 
-  Solution(const Solution&) = delete;  // GSL holds its address
+  Solution(const Solution&) = delete;  // GSL holds the address of the object
   Solution& operator=(const Solution&) = delete;
 
-  // To s at or after where it is.
+  // Advances to s, which is not before the present one.
   void advance(double s) {
     if (s > s_) {
       const int status = gsl_odeiv2_driver_apply(driver_.get(), &s_, s, state_.data());
@@ -110,7 +110,7 @@ double energy_equation_tau_c(const Gas& gas, double b, Velocities velocities) {
   Solution solution(gas, b, velocities);
   while (solution.energy_over_haff() < 2) solution.advance(solution.s() + stride);
 
-  // F is convex, so Newton's steps from past the crossing come down to it from above.
+  // F is convex, so Newton's steps from beyond the crossing approach it from above.
   double s = solution.s();
   for (int step = 0; step < 50; ++step) {
     Solution here(gas, b, velocities);
@@ -129,7 +129,7 @@ struct Measured {
   Gas gas;
   Velocities velocities = Velocities::gaussian;
   std::vector<double> tau, log_energy, log_error;
-  gsl::Caught caught = {};  // of residuals()
+  gsl::Caught caught = {};  // from residuals()
 };
 
 Measured measured(const Gas& gas, std::span<const double> tau, std::span<const double> energy,
@@ -196,7 +196,7 @@ CutoffFit fit_cutoff(const Gas& gas, std::span<const double> tau, std::span<cons
   const int status = gsl_multifit_nlinear_driver(
       most_iterations, step_tolerance, gradient_tolerance, 0, nullptr, nullptr, &reason, fit.get());
   series.caught.rethrow();
-  // GSL calls it a failure if no step from the start improves the fit; here the start was right.
+  // GSL reports a failure if no step from the start improves the fit; here the start was right.
   if (reason != GSL_ENOPROG) gsl::check(status, "fit of b");
 
   const gsl::Owned<gsl_matrix, gsl_matrix_free> covariance(gsl_matrix_alloc(1, 1));

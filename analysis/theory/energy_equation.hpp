@@ -5,10 +5,11 @@
 //   dE/dtau = -2 gamma_0 f (E - (m/2) Tr G^+(0, tau)),   E(0) = 1
 //   gamma/gamma_0 = f (1 - (m/2) Tr G^+ / E)
 //
-// R. Kawahara and H. Nakanishi, cond-mat/0309130, with f = 1: velocities in a small volume are
-// Gaussian. They are not quite, and in a dilute gas this is most of what makes gamma differ from
-// gamma_0: f = gamma/gamma_0 of Enskog-Boltzmann theory at this tau (enskog_boltzmann.hpp). The one
-// number of the theory, b, sets the cutoff of Tr G^+ (see correlations.hpp).
+// R. Kawahara and H. Nakanishi, cond-mat/0309130, with f = 1, which assumes that velocities in a
+// small volume are Gaussian. They are not quite, and in a dilute gas most of the difference between
+// gamma and gamma_0 comes from this. f = gamma/gamma_0 of Enskog-Boltzmann theory at this tau
+// (enskog_boltzmann.hpp) takes it into account. The only free number of the theory, b, sets the
+// cutoff of Tr G^+ (see correlations.hpp).
 //
 // Solved on s = 2 gamma_0 tau for F = E / E_Haff, which does not underflow: with
 // T_Haff = (2/d) E_Haff,
@@ -23,7 +24,7 @@
 
 namespace haff::analysis {
 
-// What f is: 1, or that of Enskog-Boltzmann theory.
+// The choice of f: 1, or gamma/gamma_0 of Enskog-Boltzmann theory.
 enum class Velocities { gaussian, enskog_boltzmann };
 
 struct EnergyPoint {
@@ -39,19 +40,19 @@ std::vector<EnergyPoint> energy_equation(const Gas& gas, std::span<const double>
                                          double b = cutoff_b,
                                          Velocities velocities = Velocities::gaussian);
 
-// tau_c of the theory: where E = 2 E_Haff. Same errors.
+// tau_c of the theory, where E = 2 E_Haff. Errors as above.
 double energy_equation_tau_c(const Gas& gas, double b = cutoff_b,
                              Velocities velocities = Velocities::gaussian);
 
-// The cutoff number b that fits a measured E(tau) best, weighing residuals of ln E by
-// energy_error / energy (all alike where energy_error is empty).
+// The cutoff number b that fits a measured E(tau) best. Residuals of ln E are weighted by
+// energy_error / energy (equally if energy_error is empty).
 struct CutoffFit {
   double b = 0;
   // From the curvature of chi^2, scaled by the scatter if no errors are given. Samples of one
-  // series are correlated, so this is a lower bound: the spread of fits to independent
-  // realizations is the honest error.
+  // series are correlated, so this is a lower bound: the spread of fits to independent realizations
+  // is the true error.
   double standard_error = 0;
-  double chi_squared_per_sample = 0;  // of the N - 1 degrees of freedom; NaN without errors
+  double chi_squared_per_sample = 0;  // over N - 1 degrees of freedom; NaN without errors
 };
 // Throws std::invalid_argument for lengths that differ or fewer than two samples with tau > 0,
 // std::runtime_error if GSL's least squares do not converge.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Enskog's transport theory of elastic hard spheres and disks, and the lengths that it gives to
-// the velocity correlations of the cooling gas.
+// Enskog's transport theory of elastic hard spheres and disks, and the length scales of the
+// velocity correlations of the cooling gas that follow from it.
 //
 //   phi            packing fraction, pi n / 6 (spheres), pi n / 4 (disks)
 //   chi            pair correlation at contact: N. F. Carnahan and K. E. Starling, J. Chem. Phys.
@@ -38,7 +38,7 @@ struct EquationOfState {
 };
 EquationOfState equation_of_state(double n, int d = 3);
 
-// Transport coefficients at a temperature [energy]; all go with sqrt(T).
+// Transport coefficients at a temperature [energy]; all are proportional to sqrt(T).
 // The numerical prefactors are those of the first Sonine approximation corrected to higher
 // order; they are known to four digits.
 struct Transport {

@@ -27,7 +27,7 @@ double boltzmann_a2_plateau(double e, int d) {
 }
 
 InitialSlopes boltzmann_initial_slopes(double e, int d) {
-  // What a collision takes from the mean of h_n^2, h_n^4 and h_n^6, in powers of T/m.
+  // The mean loss of h_n^2, h_n^4 and h_n^6 in a collision, in powers of T/m.
   const double e2 = e * e;
   const double second = e2 - 1;
   const double fourth = 2 * (e2 * e2 - 1);
@@ -38,7 +38,7 @@ InitialSlopes boltzmann_initial_slopes(double e, int d) {
   const double v6 = second * (0.75 * m * (m + 2) + 3 * (m + 2) + 3 * (d - 1)) +
                     fourth * (1.5 * m + 6) + sixth;  // d<v^6>/dtau [(T/m)^3]
   const double a2 = source(e, d);                    // d(a_2)/dtau = dM_2/dtau, M_2 = 1 + a_2
-  const double m3 = v6 / (d * (d + 2) * (d + 4)) - 3 * second / d;  // T changes, too
+  const double m3 = v6 / (d * (d + 2) * (d + 4)) - 3 * second / d;  // because T changes
   return {.a2 = a2, .a3 = 3 * a2 - m3};
 }
 

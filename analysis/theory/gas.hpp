@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The gas a theory speaks of: restitution, density, dimension. Units: m = sigma = 1.
+// The gas that a theory describes: restitution, density, dimension. Units: m = sigma = 1.
 #pragma once
 
 #include <cmath>

@@ -28,7 +28,7 @@ double moment(const BinaryMixture& gas, int power) {
   return sum;
 }
 
-// Ratios T_1/T_2 between which the root is looked for; it bisects their logarithm.
+// T_1/T_2 is searched from 1/widest to widest, by bisection of its logarithm.
 constexpr double widest = 1e6;
 constexpr double precision = 1e-12;  // of that logarithm
 

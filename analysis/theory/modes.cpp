@@ -33,7 +33,7 @@ ModeSpectrum modes(const Gas& gas, double k) {
       .longitudinal = {solver.eigenvalues()[0], solver.eigenvalues()[1], solver.eigenvalues()[2]}};
   std::ranges::sort(spectrum.longitudinal, [](const auto& a, const auto& b) {
     // Conjugate pairs agree in their real parts only to rounding.
-    constexpr double same = 1e-12;  // of gamma_0's order [1/tau]
+    constexpr double same = 1e-12;  // far below gamma_0 [1/tau]
     if (std::abs(a.real() - b.real()) > same) return a.real() > b.real();
     return a.imag() > b.imag();
   });

@@ -30,8 +30,8 @@ struct ModeSpectrum {
 // of the largest element. Throws std::invalid_argument at e = 1.
 ModeSpectrum modes(const Gas& gas, double k);
 
-// The wave numbers below which a mode grows [1/sigma]; a box smaller than 2 pi over one is
-// stable against it. The heat mode's bound is zero where it never grows.
+// The wave numbers below which a mode grows [1/sigma]. A box smaller than 2 pi over one of them is
+// stable against that mode. The bound of the heat mode is zero where it never grows.
 struct InstabilityBounds {
   double shear = 0;  // 1 / xi_perp
   double heat = 0;   // k^2 = (2 z g / (d(n z)/dn) - 1) / xi_T^2, where the matrix is singular

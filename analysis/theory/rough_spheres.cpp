@@ -35,7 +35,8 @@ double rough_temperature_ratio(double e, const Roughness& roughness) {
   return h > 0 ? h + root : r / (root - h);  // without cancellation
 }
 
-// Linear in T and R on the clock tau: the exponential of a matrix.
+// The equations are linear in T and R on the clock tau: the solution is the exponential of a
+// matrix.
 RoughTemperatures rough_temperatures(double tau, double e, const Roughness& roughness,
                                      const RoughTemperatures& start) {
   const Rates rates(e, roughness);

@@ -12,12 +12,12 @@
 //   d ln T/dtau = -(2 (d-1)/d) (A - B theta),   d ln R/dtau = -(2 (d-1)/k) (C - B/theta),
 //   A = (1 - e^2)/(2 (d-1)) + eta (1 - eta),   B = eta^2/q,   C = (eta/q) (1 - eta/q),
 //   eta = q (1 + beta) / (2 (1 + q)),
-// and theta comes to rest where both decay alike: with r = d/k, at theta* = h + sqrt(r + h^2),
-// h = (A - r C)/(2 B).
+// and at the fixed point of theta both decay at the same rate: with r = d/k,
+// theta* = h + sqrt(r + h^2), h = (A - r C)/(2 B).
 //
-// M. Huthmann and A. Zippelius, Phys. Rev. E 56, R6275 (1997), cond-mat/9708093. That the
-// velocities are not quite Gaussian changes theta* little: A. Santos, G. M. Kremer and M. dos
-// Santos, Phys. Fluids 23, 030604 (2011), arXiv:1009.6180, who write for spheres
+// M. Huthmann and A. Zippelius, Phys. Rev. E 56, R6275 (1997), cond-mat/9708093. Deviations from
+// Gaussian velocities change theta* little: A. Santos, G. M. Kremer and M. dos Santos, Phys. Fluids
+// 23, 030604 (2011), arXiv:1009.6180, who write for spheres
 //   h = (1+q)^2 / (2 q (1+beta)^2) [1 - e^2 - (1 - beta^2)(1 - q)/(1 + q)].
 // All rates are in proportion to the collision rate, so neither density nor T enters on the clock
 // tau.
@@ -31,7 +31,7 @@ struct Roughness {
   int d = 3;
 };
 
-// theta*, infinite for smooth bodies (beta = -1).
+// theta*, infinite for smooth particles (beta = -1).
 double rough_temperature_ratio(double e, const Roughness& roughness);
 
 struct RoughTemperatures {
@@ -39,7 +39,7 @@ struct RoughTemperatures {
   double rotation = 0;     // R
 };
 
-// Both temperatures a time tau after `start` [collisions per particle], in its unit.
+// Both temperatures a time tau [collisions per particle] after `start`, in the unit of `start`.
 RoughTemperatures rough_temperatures(double tau, double e, const Roughness& roughness,
                                      const RoughTemperatures& start);
 

@@ -11,7 +11,7 @@
 namespace haff::analysis {
 namespace {
 
-// All Sonine approximations over the first, of spheres.
+// D in all Sonine approximations over D in the first, for spheres.
 constexpr double higher_approximations = 1.019;
 
 }  // namespace

@@ -21,7 +21,7 @@ double spectrum_ratio(const Gas& gas, double k, double tau, bool is_parallel) {
   const double xi = is_parallel ? length.longitudinal : length.transverse;
   const double s = 2 * gamma0(gas.e, gas.d) * tau;
   const double rest = 1 - xi * xi * k * k;
-  constexpr double nearly_zero = 1e-8;  // there the quotient is s to that order
+  constexpr double nearly_zero = 1e-8;  // below, the quotient is s to that order
   return 1 + (std::abs(rest * s) < nearly_zero ? s : std::expm1(s * rest) / rest);
 }
 

@@ -9,19 +9,19 @@
 //             times equilibrium at Haff's temperature: 1 for k >> 1/xi, e^s for k -> 0, where the
 //             flow keeps its energy
 //
-// It is the transform of G_perp and G_par of correlations.hpp, with the self part: T. P. C. van
+// This is the transform of G_perp and G_par of correlations.hpp, with the self part: T. P. C. van
 // Noije, M. H. Ernst, R. Brito and J. A. G. Orza, Phys. Rev. Lett. 79, 411 (1997). For longitudinal
-// modes it holds where k l_0 is well below gamma_0 alone (modes.hpp).
+// modes it holds only where k l_0 is well below gamma_0 (modes.hpp).
 #pragma once
 
 #include "analysis/theory/gas.hpp"
 
 namespace haff::analysis {
 
-// E(k) of an equilibrium at temperature T, in the unit of T sigma; k in 1/sigma.
+// E(k) in equilibrium at temperature T, in the unit of T sigma; k in 1/sigma.
 double equilibrium_spectrum(double k, double n, double temperature, bool is_parallel, int d = 3);
 
-// Throws std::invalid_argument at e = 1, where it is 1.
+// The ratio above. Throws std::invalid_argument at e = 1, where the ratio is 1.
 double spectrum_ratio(const Gas& gas, double k, double tau, bool is_parallel);
 
 }  // namespace haff::analysis

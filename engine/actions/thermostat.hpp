@@ -22,8 +22,8 @@
 
 namespace haff::engine {
 
-// Between kicks the gas cools freely: it loses the fraction 2 gamma_0 kick_period of its energy, 3
-// % at e = 0.8. Samples are taken at multiples of the period and kicks come halfway between them,
+// Between kicks the gas cools freely: it loses the fraction 2 gamma_0 kick_period of its energy,
+// 3 % at e = 0.8. Samples are taken at multiples of the period and kicks come halfway between them,
 // so that T and a_2 in the samples agree with those of continuous noise to second order, within
 // 1e-3. [collisions/particle]
 inline constexpr double kick_period = 0.25;
