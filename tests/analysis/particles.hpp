@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Particles without physics, for the tests of measurements.
+// Particles without physics, for the tests of observables.
 #pragma once
 
 #include <cmath>
@@ -30,7 +30,7 @@ class Random {
   std::uint64_t state_;
 };
 
-// Anywhere in the box, whatever overlaps.
+// Random positions in the box; particles may overlap.
 inline std::vector<Vector> anywhere(std::size_t count, double box, Random& random) {
   std::vector<Vector> position(count);
   for (Vector& r : position)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The direct simulation against what is known exactly: an elastic gas stays Gaussian, the first
-// slopes of a_2 and a_3, the first collision rate, energy given and lost.
+// The direct simulation against exact results: an elastic gas stays Gaussian; the initial slopes of
+// a_2 and a_3; the initial collision rate; the balance of energy given and lost.
 #include "analysis/direct/direct_simulation.hpp"
 
 #include <doctest/doctest.h>
@@ -18,7 +18,7 @@ using namespace haff::analysis;
 
 namespace {
 
-// A false alarm once in 15 000 values for a Gaussian, and seeds are fixed.
+// For a Gaussian this gives one false alarm in 15 000 values; the seeds are fixed.
 constexpr double sigmas = 4;
 
 void check_within(const Estimate& value, double expected, double slack = 0) {
@@ -50,14 +50,13 @@ TEST_CASE("direct simulation: time runs at Enskog's collision rate") {
     const auto all = direct_realizations({.law = ConstantRestitution{1}, .d = d, .n = 0.3}, tau,
                                          {.particles = 10'000, .realizations = 16, .seed = 8});
     const double rate = transport(0.3, 2.0 / d, d).collision_rate;
-    // Energy is not fluctuating here: N instead of N - 1 shows in the fourth digit.
+    // The energy does not fluctuate: N instead of N - 1 would show in the fourth digit.
     check_within(direct_means(all)[0].time, 5 / rate, 2e-4 * 5 / rate);
   }
 }
 
-// a_l(h) - a_l(0) = h a_l' + O(h^2): with h = 0.05 the second order is |B| h / 2 < 2 % of the
-// first, and a third of that is left by comparing with (1 - exp(B h))/B, B = -0.55 (a_2), -0.9
-// (a_3).
+// a_l(h) - a_l(0) = h a_l' + O(h^2). With h = 0.05 the second order is |B| h / 2 < 2 % of the
+// first; comparing with (1 - exp(B h))/B, B = -0.55 (a_2), -0.9 (a_3), leaves a third of that.
 TEST_CASE("direct simulation: a2 and a3 leave a Gaussian with their exact slopes") {
   constexpr double h = 0.05, relaxation[] = {0.55, 0.9}, slack = 0.02;
   const std::vector<double> tau = {0, h};
@@ -80,7 +79,7 @@ TEST_CASE("direct simulation: a2 and a3 leave a Gaussian with their exact slopes
   }
 }
 
-TEST_CASE("direct simulation: a heated gas loses what it is given") {
+TEST_CASE("direct simulation: a heated gas loses the energy that it is given") {
   constexpr double e = 0.8, rate = 0.05, n = 0.05;
   std::vector<double> tau;
   for (int k = 20; k <= 40; ++k) tau.push_back(k);
@@ -92,8 +91,8 @@ TEST_CASE("direct simulation: a heated gas loses what it is given") {
   const double t = rest.temperature.mean;
   const double loss = 2 * gamma0(e) * rest.gamma_ratio.mean * rest.rate_ratio.mean *
                       transport(n, t).collision_rate * 1.5 * t;
-  CHECK(std::abs(loss / rate - 1) < 0.006);  // eight realizations of 10^4
-  // Of first order in a_2, as the theory is: its a_2 is good to 5 %.
+  CHECK(std::abs(loss / rate - 1) < 0.006);  // eight realizations of 10^4 particles
+  // The theory is of first order in a_2: its a_2 is good to 5 %.
   check_within(rest.laguerre[2], heated_a2(e), 0.05 * std::abs(heated_a2(e)));
 }
 
@@ -103,7 +102,8 @@ TEST_CASE("direct simulation: below the threshold and within t_c collisions are 
     return direct_realization({.law = law}, tau, 5'000, 11, 0).front().temperature;
   };
   CHECK(temperature(ThresholdRestitution{0.5, 100}) == doctest::Approx(2.0 / 3).epsilon(1e-12));
-  CHECK(temperature(ContactDurationRestitution{0.5, 1e9}) < 2.0 / 3);  // the first ones lose energy
+  CHECK(temperature(ContactDurationRestitution{0.5, 1e9}) <
+        2.0 / 3);  // the first collisions lose energy
   CHECK(temperature(ContactDurationRestitution{0.5, 1e9}) >
         3 * temperature(ConstantRestitution{0.5}));
   CHECK(temperature(PlasticRestitution{100}) == doctest::Approx(2.0 / 3).epsilon(1e-12));
@@ -111,7 +111,7 @@ TEST_CASE("direct simulation: below the threshold and within t_c collisions are 
   CHECK(temperature(ViscoelasticRestitution{0.05}) < 2.0 / 3);
 }
 
-TEST_CASE("direct simulation: the same seed gives the same bits, another stream others") {
+TEST_CASE("direct simulation: the same seed gives the same bits, another stream gives others") {
   const std::vector<double> tau = {1, 400};
   const HomogeneousGas gas{.law = ConstantRestitution{0.8}};
   const auto one = direct_realization(gas, tau, 500, 3, 0);
@@ -120,9 +120,9 @@ TEST_CASE("direct simulation: the same seed gives the same bits, another stream 
   CHECK(one[1].laguerre == again[1].laguerre);
   CHECK(one[1].temperature == again[1].temperature);
   CHECK(one[0].laguerre != other[0].laguerre);
-  // exp(-2 gamma_0 400) = 1e-21 of T: scaled on the way, and still finite.
+  // T falls by exp(-2 gamma_0 400) = 1e-21: it is rescaled on the way, and still finite.
   const double log_ratio = std::log(one[1].temperature / haff_temperature(400, 0.8));
-  CHECK(std::abs(log_ratio) < 0.1 * 48);  // 500 particles; a_2 takes 0.4 % of 48
+  CHECK(std::abs(log_ratio) < 0.1 * 48);  // 500 particles; a_2 changes 0.4 % of 48
 }
 
 TEST_CASE("direct simulation: bad input is refused") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The table of direct simulations, held to an independent direct simulation.
+// The table of direct simulations, compared with an independent direct simulation.
 #include "analysis/direct/table.hpp"
 
 #include <doctest/doctest.h>
@@ -14,8 +14,8 @@ using namespace haff::analysis;
 
 namespace {
 
-// Both sides have an error: `its` is the independent one's. Four combined errors are a false alarm
-// once in 15 000, and the table does not change by itself.
+// Both values have an error: `its` is that of the independent value. Four combined errors are a
+// false alarm once in 15 000 seeds, and the table does not change by itself.
 void check(const TabulatedValue& ours, double independent, double its) {
   INFO(ours.value, " +- ", ours.error, ", independent ", independent, " +- ", its);
   CHECK(std::abs(ours.value - independent) < 4 * std::hypot(ours.error, its));
@@ -23,7 +23,7 @@ void check(const TabulatedValue& ours, double independent, double its) {
 
 }  // namespace
 
-TEST_CASE("table: e = 0.85 in 3-d is that of an independent program") {
+TEST_CASE("table: e = 0.85 in 3-d agrees with an independent program") {
   // N = 2 10^5, ten seeds, tau > 15.
   check(tabulated("a2", 0.85)->plateau, -0.01688, 7e-5);
   check(tabulated("a3", 0.85)->plateau, -0.00502, 6e-5);
@@ -33,7 +33,7 @@ TEST_CASE("table: e = 0.85 in 3-d is that of an independent program") {
   check(a2->at(1), -0.0066, 1.3e-4);
   check(a2->at(3), -0.0130, 1.3e-4);
   check(a2->at(8), -0.0165, 1.3e-4);
-  // -A/B is another number, by twenty errors.
+  // -A/B differs from it by twenty standard errors.
   CHECK(std::abs(boltzmann_a2_plateau(0.85) - a2->plateau.value) > 1e-3);
 }
 
@@ -46,9 +46,8 @@ TEST_CASE("table: an elastic gas has no coefficients") {
   }
 }
 
-TEST_CASE(
-    "table: first order in a2 falls short by what it leaves out, and is right at small e - 1") {
-  // The first order's relative error falls with 1 - e^2: within a tenth at e = 0.98.
+TEST_CASE("table: the first order in a2 falls short, but is right at small 1 - e") {
+  // The relative error of the first order falls with 1 - e^2: it is below a tenth at e = 0.98.
   for (const int d : {2, 3}) {
     const auto a2 = tabulated("a2", 0.98, d)->plateau;
     CHECK(std::abs(a2.value - boltzmann_a2_plateau(0.98, d)) <
@@ -58,7 +57,7 @@ TEST_CASE(
   CHECK(boltzmann_a2_plateau(0.7) > 0);
 }
 
-TEST_CASE("table: between its points it follows the exact slope, beyond them it stays") {
+TEST_CASE("table: it follows the exact slope between its points and is constant beyond them") {
   const auto a2 = tabulated("a2", 0.8);
   REQUIRE(a2);
   CHECK(a2->tau.front() == 0);

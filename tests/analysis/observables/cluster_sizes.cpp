@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Clusters placed by hand, and those of particles that are anywhere.
+// Clusters placed by hand, and clusters of particles at random positions.
 #include "analysis/observables/cluster_sizes.hpp"
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@
 using namespace haff::analysis;
 using doctest::Approx;
 
-TEST_CASE("cluster_sizes: a chain through a face of the box, a pair, and one alone") {
+TEST_CASE("cluster_sizes: a chain through a face of the box, a pair, and a single particle") {
   const std::vector<Vector> position{{0.5, 5, 5}, {9.5, 5, 5},  {8.45, 5, 5},  // 1.0 and 1.05 apart
                                      {3, 3, 3},   {3, 4.09, 3},                // 1.09 apart
                                      {6, 8, 8}};
@@ -26,16 +26,16 @@ TEST_CASE("cluster_sizes: a chain through a face of the box, a pair, and one alo
   CHECK(found.mean == Approx((1 + 4 + 9) / 6.0));
 }
 
-TEST_CASE("cluster_sizes: small particles are bonded at their own distance of contact") {
+TEST_CASE("cluster_sizes: small particles are bonded at their own contact distance") {
   const std::vector<Vector> position{{1, 1, 1}, {1.6, 1, 1}};
   CHECK(cluster_sizes(position, 10).mean == 2);
   CHECK(cluster_sizes(position, 10, 3, [](std::size_t, std::size_t) { return 0.5; }).mean == 1);
 }
 
-TEST_CASE("cluster_sizes: particles anywhere are alone as often as Poisson says") {
-  // exp(-n v) with v the volume within a bond; at n v = 0.5 of 40 000 particles 0.6065. Pairs share
-  // their fate: the variance is less than twice the binomial one. Within 5 standard errors, false
-  // alarm in one of 10^6 seeds.
+TEST_CASE("cluster_sizes: the share of single particles at random positions is Poisson's") {
+  // The share is exp(-n v), where v is the volume within a bond: 0.6065 of 40 000 particles at n
+  // v = 0.5. Both particles of a pair are single or not together, so the variance is less than
+  // twice the binomial one. Within 5 standard errors: a false alarm in one of 10^6 seeds.
   for (const int d : {2, 3}) {
     CAPTURE(d);
     Random random(10);
@@ -51,7 +51,7 @@ TEST_CASE("cluster_sizes: particles anywhere are alone as often as Poisson says"
   }
 }
 
-TEST_CASE("cluster_sizes: refuses no particles, and a box that is narrower than two bonds") {
+TEST_CASE("cluster_sizes: no particles are refused, and so is a box narrower than two bonds") {
   CHECK_THROWS_AS(cluster_sizes({}, 10), std::invalid_argument);
   CHECK_THROWS_AS(cluster_sizes(std::vector<Vector>(2), 2.1), std::invalid_argument);
 }

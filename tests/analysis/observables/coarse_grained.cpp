@@ -12,7 +12,7 @@
 using namespace haff::analysis;
 using doctest::Approx;
 
-TEST_CASE("coarse-grained: cells by hand") {
+TEST_CASE("coarse-grained: three particles by hand") {
   // A box of 2 x 2 x 2 cells of side 5: two particles in (0, 0, 1), one in (1, 0, 0).
   const std::vector<Vector> position = {{1, 1, 9}, {4, 4, 6}, {9.9, 0, 0}};
   const std::vector<Vector> velocity = {{1, 0, 0}, {3, 0, 4}, {7, 8, 9}};
@@ -44,9 +44,9 @@ TEST_CASE("coarse-grained: a planar gas has planar cells") {
 }
 
 TEST_CASE("coarse-grained: the local temperature has no bias from few particles") {
-  // T = 1 with some 4 particles a cell; uncorrected the mean would be near 0.75. Mean of 8000
-  // cells, weighed by their degrees of freedom: standard error sqrt(2 / (3 (N - cells))) = 0.0053;
-  // 4.5 of them, one of 150 000 seeds.
+  // T = 1 with some 4 particles per cell; without the correction the mean would be near 0.75. The
+  // mean of 8000 cells, weighted by their degrees of freedom, has the standard error sqrt(2 / (3 (N
+  // - cells))) = 0.0053. Within 4.5 of them: a false alarm in one of 150 000 seeds.
   Random random(7);
   constexpr std::size_t count = 32000;
   const auto field = coarse_grained(anywhere(count, 20, random), thermal(count, random), 20, 20);
@@ -59,7 +59,7 @@ TEST_CASE("coarse-grained: the local temperature has no bias from few particles"
   CHECK(std::abs(sum / freedom - 1) < 4.5 * std::sqrt(2 / (3 * freedom)));
 }
 
-TEST_CASE("coarse-grained: the paper's cells where there are particles enough") {
+TEST_CASE("coarse-grained: the paper's cells where there are enough particles") {
   CHECK(coarse_cells(1e6) == 32);
   CHECK(coarse_cells(6e5) == 32);
   CHECK(coarse_cells(32000) == 16);

@@ -13,16 +13,16 @@ using namespace haff::analysis;
 using doctest::Approx;
 using Counts = std::vector<std::int64_t>;
 
-TEST_CASE("collision_statistics: a density of bins, with and without a rest") {
+TEST_CASE("collision_statistics: a density in bins, with and without a bin for the rest") {
   const auto all = density(Counts{2, 2, 2, 2}, 0.25);
   CHECK(all.x == std::vector{0.125, 0.375, 0.625, 0.875});
   CHECK(all.value == std::vector{1.0, 1.0, 1.0, 1.0});
   const auto most = density_with_rest(Counts{1, 2, 1}, 0.5);
   CHECK(most.x == std::vector{0.25, 0.75});
-  CHECK(most.value == std::vector{0.5, 1.0});  // a quarter is beyond
+  CHECK(most.value == std::vector{0.5, 1.0});  // a quarter is beyond the bins
 }
 
-TEST_CASE("collision_statistics: of nothing there is no density, of no bins none can be") {
+TEST_CASE("collision_statistics: no counts give no density, and no bins are refused") {
   CHECK(density(Counts{0, 0}, 0.5).x.empty());
   CHECK(density_of_free_times(Counts{0, 0}, 10, 100).x.empty());
   CHECK_THROWS_AS(density(Counts{}, 0.5), std::invalid_argument);
@@ -30,8 +30,8 @@ TEST_CASE("collision_statistics: of nothing there is no density, of no bins none
 }
 
 TEST_CASE("collision_statistics: bins with more whole numbers in them are no denser") {
-  // One flight of each length k: the density is N/2 over their number, in whichever bin they are.
-  // Of 7, 33 or 101 particles no bin has as many k as the next one; of 7 some have none.
+  // One flight of each length k: the density is N/2 over the number of lengths, in every bin. With
+  // 7, 33 or 101 particles neighbouring bins hold different numbers of k; with 7 some hold none.
   for (const std::uint32_t particles : {7U, 33U, 101U, 2000U}) {
     CAPTURE(particles);
     Counts counts(101);

@@ -15,7 +15,7 @@ using std::numbers::pi;
 
 namespace {
 
-// int d^dc rho over the bins.
+// int d^dc rho, summed over the bins.
 double integral(const SpeedDistribution& speeds, int d) {
   double sum = 0;
   for (std::size_t i = 0; i < speeds.c.size(); ++i) {
@@ -37,7 +37,7 @@ TEST_CASE("distribution: integrates to pi^(d/2)") {
 }
 
 TEST_CASE("distribution: equal speeds are in one bin") {
-  // All at v: v_0^2 = 2 v^2 / d, c = sqrt(3/2) = 1.2247.
+  // All speeds are v: v_0^2 = 2 v^2 / d, c = sqrt(3/2) = 1.2247.
   const std::vector<Vector> velocity = {{2, 0, 0}, {0, -2, 0}, {0, 0, 2}};
   const auto speeds = speed_distribution(velocity);
   for (std::size_t i = 0; i < speeds.c.size(); ++i) CHECK((speeds.rho[i] > 0) == (i == 12));
@@ -48,7 +48,7 @@ TEST_CASE("distribution: equal speeds are in one bin") {
 
 TEST_CASE("distribution: a Gaussian gas has exp(-c^2)") {
   // Bins with more than 100 of 10^6 particles, within 4.5 standard errors plus the difference
-  // between shell and middle: one of 4000 seeds gives a false alarm.
+  // between shell and middle: a false alarm in one of 4000 seeds.
   Random random(9);
   constexpr std::size_t count = 1'000'000;
   const auto speeds = speed_distribution(thermal(count, random));
@@ -61,7 +61,7 @@ TEST_CASE("distribution: a Gaussian gas has exp(-c^2)") {
   }
 }
 
-TEST_CASE("distribution: scaled velocities have the same") {
+TEST_CASE("distribution: scaled velocities have the same distribution") {
   Random random(10);
   auto velocity = thermal(1000, random);
   const auto before = speed_distribution(velocity).rho;

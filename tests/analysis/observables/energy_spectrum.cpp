@@ -17,21 +17,21 @@ using std::numbers::pi;
 
 namespace {
 
-// Energy of each shell: E is a density in k, of modes per particle.
+// The energy of each shell: E is a density in k, here divided by the modes per particle.
 double energy_of_shell(const EnergySpectrum& found, const std::vector<double>& spectrum,
                        std::size_t shell, double box, int d) {
   const double modes = (d == 3 ? 4 * pi * std::pow(found.k[shell], 2) : 2 * pi * found.k[shell]) *
                        std::pow(box / (2 * pi), d);
-  return spectrum[shell] / modes;  // of a mode, on average
+  return spectrum[shell] / modes;  // the mean energy of a mode
 }
 
 }  // namespace
 
 TEST_CASE("energy_spectrum: a shear wave and a sound wave, on a lattice") {
-  // v = cos(2 pi m x / L) along y or x, m = 2. N^2/4 in each of two modes; shell 2 has all modes of
-  // 1.5 to 2.5: 86 in space, 12 in the plane. A mesh point in each cell has no error but what
-  // shares between points do to the carried wave, which is taken out: to within what is folded into
-  // the mode from the lattice itself, (pi m / 20)^2 / 3 of its amplitude at most.
+  // v = cos(2 pi m x / L) along y or x, m = 2: two modes have N^2/4 each. Shell 2 has all modes
+  // from 1.5 to 2.5: 86 in space, 12 in the plane. With a mesh point in each cell the only error is
+  // the effect of sharing out on the carried wave, which is corrected except for the part that is
+  // folded into the mode from the lattice itself, at most (pi m / 20)^2 / 3 of its amplitude.
   for (const int d : {2, 3}) {
     CAPTURE(d);
     const double box = 20;
@@ -43,7 +43,7 @@ TEST_CASE("energy_spectrum: a shear wave and a sound wave, on a lattice") {
       sound[i] = {wave, 0, 0};
     }
     const double modes = d == 3 ? 62 : 12;     // counted by hand: squares 3 to 6
-    const double each = 2 * 0.25 / 2 / modes;  // |p|^2/(2 N^2), on average over the shell
+    const double each = 2 * 0.25 / 2 / modes;  // |p|^2/(2 N^2), averaged over the shell
     const auto of_shear = energy_spectrum(position, shear, {}, box, d);
     const auto of_sound = energy_spectrum(position, sound, {}, box, d);
     CHECK(energy_of_shell(of_shear, of_shear.transverse, 1, box, d) == Approx(each).epsilon(0.07));
@@ -51,7 +51,7 @@ TEST_CASE("energy_spectrum: a shear wave and a sound wave, on a lattice") {
     CHECK(energy_of_shell(of_sound, of_sound.longitudinal, 1, box, d) ==
           Approx(each).epsilon(0.07));
     CHECK(std::abs(energy_of_shell(of_sound, of_sound.transverse, 1, box, d)) < 0.01 * each);
-    // All of the shell's energy is at k = 2 pi 2 / L.
+    // All energy of the shell is at k = 2 pi 2 / L.
     CHECK(of_shear.enstrophy[1] / of_shear.transverse[1] ==
           Approx(std::pow(2 * pi * 2 / box, 2)).epsilon(0.01));
   }
@@ -59,7 +59,7 @@ TEST_CASE("energy_spectrum: a shear wave and a sound wave, on a lattice") {
 
 TEST_CASE("energy_spectrum: equipartition of thermal velocities") {
   // |p|^2 of a mode is a sum of d squares of Gaussians; half of the modes are independent. Shells 1
-  // to 8, two spectra, within 4.5 standard errors: false alarm in one of 5000 seeds.
+  // to 8, two spectra, within 4.5 standard errors: a false alarm in one of 5000 seeds.
   for (const int d : {2, 3}) {
     CAPTURE(d);
     Random random(8);
@@ -99,7 +99,7 @@ TEST_CASE("energy_spectrum: equipartition of particles of two masses") {
   }
 }
 
-TEST_CASE("energy_spectrum: refuses what does not go together") {
+TEST_CASE("energy_spectrum: arrays that do not belong together are refused") {
   const std::vector<Vector> two(2), three(3);
   CHECK_THROWS_AS(energy_spectrum(two, three, {}, 10), std::invalid_argument);
   CHECK_THROWS_AS(energy_spectrum(two, two, {}, 7), std::invalid_argument);

@@ -23,7 +23,7 @@ TEST_CASE("equilibrium: a_l of few particles at fixed energy and momentum") {
   CHECK(equilibrium_laguerre(4, 2) == doctest::Approx(equal[4]));
 }
 
-TEST_CASE("equilibrium: Gaussian coefficients are, others or none are not") {
+TEST_CASE("equilibrium: Gaussian coefficients pass, others or missing ones do not") {
   // 0.06 is 5 standard errors of a_2, sqrt(8/(15 N)) = 0.0115.
   CHECK(is_equilibrated({0.0, 0.0, 0.0}, 4000));
   CHECK_FALSE(is_equilibrated({0.06, 0.0, 0.0}, 4000));

@@ -28,7 +28,7 @@ std::vector<Vector> gaussian_velocities(std::size_t count, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("moments: a Gaussian has no Laguerre coefficients beyond its noise") {
+TEST_CASE("moments: the Laguerre coefficients of a Gaussian are zero within their noise") {
   constexpr std::size_t count = 200000;
   const auto velocity = gaussian_velocities(count, 7);
   for (const int d : {2, 3}) {
@@ -63,13 +63,13 @@ TEST_CASE("moments: coefficients are averages of Laguerre polynomials") {
         mean += gsl_sf_laguerre_n(l, 0.5 * d - 1, v2 / (2 * m.temperature));
       }
       mean *= norm / double(velocity.size());
-      // Rounding of the plain sum over polynomials as large as 10^3.
+      // The rounding error of the plain sum, whose polynomials are as large as 10^3.
       CHECK(std::abs(m.laguerre[std::size_t(l)] - mean) < 1e-11);
     }
   }
 }
 
-TEST_CASE("moments: one speed only has a_2 = -2/5 in three dimensions, -1/2 in two") {
+TEST_CASE("moments: equal speeds have a_2 = -2/5 in three dimensions and -1/2 in two") {
   const std::vector<Vector> sphere = {{2, 0, 0}, {0, 2, 0}, {0, 0, -2}};
   const std::vector<Vector> circle = {{2, 0, 9}, {0, -2, 9}};  // the third component is ignored
   CHECK(moments(sphere, 3).laguerre[2] == doctest::Approx(-0.4).epsilon(1e-14));
@@ -86,7 +86,7 @@ TEST_CASE("moments: an exponential tail gives the coefficients of its moments") 
     factorial *= double(2 * k + 3) * double(2 * k + 4);
   }
   const auto a = laguerre_from_moments(c_moments, 3);
-  // M_k = 1, 1, 1.5, 3, 7.5, 22.5, 78.75 in units of the Gaussian's.
+  // M_k = 1, 1, 1.5, 3, 7.5, 22.5, 78.75 in units of the Gaussian values.
   const LaguerreCoefficients known = {1, 0, 0.5, -0.5, 1.5, -4, 13.75};
   for (std::size_t l = 0; l < a.size(); ++l) CHECK(std::abs(a[l] - known[l]) < 1e-12);
 }
@@ -103,14 +103,14 @@ TEST_CASE("moments: scaling velocities by a power of two changes no digit") {
 }
 
 TEST_CASE("moments: sums are good to a few units in the last place") {
-  // 10^6 equal velocities: everything is known exactly.
+  // 10^6 equal velocities: all results are known exactly.
   const std::vector<Vector> velocity(1000003, Vector{0.1, 0.1, 0.1});
   const auto m = moments(velocity);
   CHECK(m.temperature == doctest::Approx(0.01).epsilon(1e-13));
   CHECK(m.laguerre[2] == doctest::Approx(-0.4).epsilon(1e-12));
 }
 
-TEST_CASE("moments: nothing to average, or an unknown dimension, is refused") {
+TEST_CASE("moments: an empty array is refused, and so is an unknown dimension") {
   CHECK_THROWS_AS(moments({}), std::invalid_argument);
   const std::vector<Vector> one = {{1, 0, 0}};
   CHECK_THROWS_AS(moments(one, 4), std::invalid_argument);

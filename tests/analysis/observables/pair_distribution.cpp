@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// g(r) of particles placed anywhere, on a lattice, and by brute force. What it is in an elastic gas
-// is in tests/validate/observables.cpp.
+// g(r) of particles at random positions, on a lattice, and by brute force.
+// tests/validate/observables.cpp has g(r) of an elastic gas.
 #include "analysis/observables/pair_distribution.hpp"
 
 #include <doctest/doctest.h>
@@ -14,10 +14,10 @@
 using namespace haff::analysis;
 using doctest::Approx;
 
-TEST_CASE("pair_distribution: particles that are anywhere have g = 1, at contact too") {
-  // Of 20 000 particles in a box of 40, a bin holds at least 390 pairs in the plane and 12 000 in
-  // space; 60 bins within 4.5 standard errors, false alarm in one of 2500 seeds. chi has the
-  // variance of the header.
+TEST_CASE("pair_distribution: g = 1 for particles at random positions, also at contact") {
+  // With 20 000 particles in a box of 40, a bin holds at least 390 pairs in the plane and 12 000 in
+  // space; 60 bins within 4.5 standard errors: a false alarm in one of 2500 seeds. The variance of
+  // chi is that of the header.
   for (const int d : {2, 3}) {
     CAPTURE(d);
     Random random(5);
@@ -43,7 +43,7 @@ TEST_CASE("pair_distribution: particles that are anywhere have g = 1, at contact
   }
 }
 
-TEST_CASE("pair_distribution: two species, and each with itself, make up all pairs") {
+TEST_CASE("pair_distribution: the pairs within and between two species are all pairs") {
   Random random(6);
   const auto all = anywhere(3000, 20, random);
   const std::vector<Vector> one(all.begin(), all.begin() + 1000),
@@ -56,8 +56,8 @@ TEST_CASE("pair_distribution: two species, and each with itself, make up all pai
           Approx((of_a + of_b + of_both) * whole.g[i]).epsilon(1e-10));
 }
 
-TEST_CASE("pair_distribution: neighbours on a lattice, through the faces of the box too") {
-  // 6 neighbours at 1.52, between two bins' ends, 12 at 2.15: pairs 3 N and 6 N.
+TEST_CASE("pair_distribution: neighbours on a lattice, also through the faces of the box") {
+  // 6 neighbours at 1.52, inside a bin, and 12 at 2.15: 3 N and 6 N pairs.
   const auto position = lattice(10, 15.2, 3);
   const auto found = pair_distribution(position, 15.2);
   const double density = 1000.0 * 999 / 2 / std::pow(15.2, 3);
@@ -72,9 +72,9 @@ TEST_CASE("pair_distribution: neighbours on a lattice, through the faces of the 
   CHECK(found.g[0] == 0);            // none near contact
 }
 
-TEST_CASE("pair_distribution: a small box has no cells, and the same pairs") {
+TEST_CASE("pair_distribution: a small box has no cells, but the same pairs") {
   Random random(7);
-  // Reach 2 in a box of 4; by brute force.
+  // The reach is 2 in a box of 4; compared with brute force.
   const auto position = anywhere(200, 4, random);
   const auto found = pair_distribution(position, 4);
   REQUIRE(found.r.size() == 21);
@@ -96,7 +96,7 @@ TEST_CASE("pair_distribution: a small box has no cells, and the same pairs") {
   CHECK(summed == Approx(pairs));
 }
 
-TEST_CASE("pair_distribution: a shorter reach leaves out bins, and knows the same of the others") {
+TEST_CASE("pair_distribution: a shorter reach leaves out bins and does not change the others") {
   Random random(8);
   const auto position = anywhere(2000, 15, random);
   const auto all = pair_distribution(position, 15);
@@ -108,7 +108,7 @@ TEST_CASE("pair_distribution: a shorter reach leaves out bins, and knows the sam
   }
 }
 
-TEST_CASE("pair_distribution: the pair that has just collided is not counted, any other is") {
+TEST_CASE("pair_distribution: all pairs are counted but the one that has just collided") {
   std::vector<Vector> position{{1, 1, 1}, {2, 1, 1}, {5, 5, 5}, {6 + 1e-7, 5, 5}};
   const auto both = pair_distribution(position, 10);
   position.resize(2);
@@ -122,7 +122,7 @@ TEST_CASE("pair_distribution: the pair that has just collided is not counted, an
   CHECK(both.g[1] > 0);
 }
 
-TEST_CASE("pair_distribution: refuses what it cannot tell") {
+TEST_CASE("pair_distribution: bad input is refused") {
   CHECK_THROWS_AS(pair_distribution(std::vector<Vector>(5), 3.9), std::invalid_argument);
   CHECK_THROWS_AS(pair_distribution(std::vector<Vector>(1), 10), std::invalid_argument);
   CHECK_THROWS_AS(pair_distribution({}, std::vector<Vector>(1), 10, 1), std::invalid_argument);

@@ -51,9 +51,9 @@ TEST_CASE("structure: the sum over particles, mode by mode") {
     const auto expected = by_modes(position, 16, 4, d);
     REQUIRE(measured.value.size() == 4);
     for (std::size_t s = 0; s < 4; ++s) {
-      // At the last shell the mesh mixes into each mode another one of random phase, with up to
-      // 1/9 of its amplitude: 2/9 of S, over the half of the modes that are independent. Three
-      // times that at most, at fixed seeds.
+      // In the last shell the mesh mixes into each mode another one of random phase, with up to 1/9
+      // of its amplitude. This gives 2/9 of S, over the half of the modes that are independent.
+      // Three times that is allowed, at fixed seeds.
       const double shell = static_cast<double>(s) + 1;
       const double modes = d == 3 ? 4 * pi * shell * shell : 2 * pi * shell;
       CHECK(std::abs(measured.value[s] - expected[s]) < 3 * (2.0 / 9) / std::sqrt(modes / 2));
@@ -64,8 +64,8 @@ TEST_CASE("structure: the sum over particles, mode by mode") {
 }
 
 TEST_CASE("structure: uncorrelated particles have S = 1") {
-  // |mode|^2/N is exponential with variance 1, half of the modes are independent: within 4.5
-  // standard errors at 11 wave numbers, false alarm in one of 13 000 seeds.
+  // |mode|^2/N is exponential with variance 1, and half of the modes are independent: within 4.5
+  // standard errors at 11 wave numbers, a false alarm in one of 13 000 seeds.
   Random random(4);
   const auto measured = structure_factor(anywhere(40000, 46.4, random), 46.4);
   REQUIRE(measured.value.size() == 11);
@@ -76,14 +76,14 @@ TEST_CASE("structure: uncorrelated particles have S = 1") {
   }
 }
 
-TEST_CASE("structure: a lattice has none below its first peak") {
+TEST_CASE("structure: S of a lattice is zero below its first peak") {
   const auto measured = structure_factor(lattice(16, 16, 3), 16);
   for (const double value : measured.value) CHECK(std::abs(value) < 0.1);  // folded-in peaks
 }
 
-TEST_CASE("clusters: as many particles as the largest dense region holds") {
-  // 8 x 8 x 8 cells of 20, and two regions with 20 more in each of 3 and 2 cells. One of them
-  // crosses the edge of the box.
+TEST_CASE("clusters: the largest dense region is counted") {
+  // 8 x 8 x 8 cells of 20 particles, and two regions of 3 and of 2 cells with 20 more particles in
+  // each cell. One of the regions crosses the edge of the box.
   const double box = 32, cell = 4;
   for (int extra = 0; extra < 2; ++extra) {
     std::vector<Vector> position;
@@ -99,17 +99,17 @@ TEST_CASE("clusters: as many particles as the largest dense region holds") {
     for (const int i : {7, 0, 1}) fill(i, 2, 2);
     for (const int k : {4, 5}) fill(4, 4, k);
     if (extra == 1) fill(3, 3, 4);  // shares an edge only
-    // Too few for another cell along an axis: 9^3 * 20 > N.
+    // The particles are too few for another cell along an axis: 9^3 * 20 > N.
     CHECK(largest_cluster(position, box) == 3 * 40.0 / static_cast<double>(position.size()));
   }
 }
 
-TEST_CASE("clusters: hardly any in particles strewn at random") {
+TEST_CASE("clusters: particles at random positions have hardly any") {
   Random random(6);
   CHECK(largest_cluster(anywhere(100000, 62, random), 62) < 0.005);
 }
 
-TEST_CASE("structure: what cannot be measured is refused") {
+TEST_CASE("structure: no particles and small boxes are refused") {
   const std::vector<Vector> none, one(1);
   CHECK_THROWS_AS(structure_factor(none, 10), std::invalid_argument);
   CHECK_THROWS_AS(structure_factor(one, 5), std::invalid_argument);

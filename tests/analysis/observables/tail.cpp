@@ -15,13 +15,13 @@ using doctest::Approx;
 
 namespace {
 
-// Speeds beyond 3 of a density c^2 exp(-A c^alpha) along x, and so many of speed 0 that v_0 = 1:
-// < v^2 > = 3/2.
+// Velocities along x: speeds beyond 3 from a density c^2 exp(-A c^alpha), and as many of speed 0 as
+// make v_0 = 1, that is < v^2 > = 3/2.
 std::vector<Vector> with_tail(std::size_t count, double A, double alpha, Random& random) {
   std::vector<Vector> velocity;
   double squares = 0;
   while (velocity.size() < count) {
-    // From an exponential of the rate that the tail has where it begins.
+    // Drawn from an exponential whose rate is that of the tail at its beginning.
     const double rate = 0.5 * A * alpha * std::pow(3, alpha - 1);
     const double c = 3 - std::log(random.uniform()) / rate;
     const double ratio = std::pow(c / 3, 2) *
@@ -36,8 +36,9 @@ std::vector<Vector> with_tail(std::size_t count, double A, double alpha, Random&
 
 }  // namespace
 
-TEST_CASE("tail: the exponent of what it was drawn from") {
-  // By the information of 10 000 speeds the standard error of alpha is 0.06 to 0.1; within 0.4.
+TEST_CASE("tail: the exponent of the density from which the speeds were drawn") {
+  // The Fisher information of 10 000 speeds gives alpha a standard error of 0.06 to 0.1; 0.4 are
+  // allowed.
   Random random(11);
   for (const double alpha : {1.0, 1.5, 2.0}) {
     CAPTURE(alpha);
@@ -49,7 +50,7 @@ TEST_CASE("tail: the exponent of what it was drawn from") {
 }
 
 TEST_CASE("tail: bins of a Gaussian gas") {
-  // 440 of 10^6 speeds are beyond 3: bins within 4.5 standard errors and what a bin averages.
+  // 440 of 10^6 speeds are beyond 3: bins agree within 4.5 standard errors plus the bin's width.
   Random random(12);
   const auto found = tail(thermal(1'000'000, random));
   REQUIRE(found.c.size() == tail_bins);

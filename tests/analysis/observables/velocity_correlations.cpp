@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Measured correlations: against sums over all pairs, a shear mode whose correlations are known in
-// closed form, and velocities that have none.
+// Measured correlations, compared with sums over all pairs, with a shear mode whose correlations
+// are known in closed form, and with velocities that have none.
 #include "analysis/observables/velocity_correlations.hpp"
 
 #include <doctest/doctest.h>
@@ -23,7 +23,7 @@ std::vector<Vector> shear(const std::vector<Vector>& position, double k) {
   return velocity;
 }
 
-// The same shells by brute force: every pair, the nearest image of its cells.
+// The same shells by brute force: every pair, at the nearest image of its cells.
 VelocityCorrelations by_pairs(const std::vector<Vector>& position,
                               const std::vector<Vector>& velocity, const Mesh& mesh) {
   std::vector<double> pairs(static_cast<std::size_t>(mesh.cells / 2 + 1)), along(pairs), all(pairs);
@@ -55,7 +55,7 @@ VelocityCorrelations by_pairs(const std::vector<Vector>& position,
 
 }  // namespace
 
-TEST_CASE("velocity correlations: the sums over pairs, without counting them") {
+TEST_CASE("velocity correlations: the same as sums over all pairs") {
   for (const int d : {2, 3}) {
     CAPTURE(d);
     Random random(5);
@@ -76,15 +76,15 @@ TEST_CASE("velocity correlations: the sums over pairs, without counting them") {
   }
 }
 
-TEST_CASE("velocity correlations: a shear wave's are known in closed form") {
+TEST_CASE("velocity correlations: those of a shear wave are known in closed form") {
   // <v_y(r) v_y(r + R)> = cos(k R_x) / 2. Averaged over directions, with y = k R:
   // Tr G = sin y / 2y, G_par = <(R_y/R)^2 cos(k R_x)> / 2 = (sin y - y cos y) / 2y^3.
   constexpr int cells = 32;
   const auto position = lattice(cells, cells, 3);
   const double k = 2 * pi / cells;
   const auto g = velocity_correlations(position, shear(position, k), cells, 1);
-  // Separations on a lattice are not spread evenly over directions: 6 and 12 of them in the first
-  // shell (0.006 off), thousands in the last.
+  // Separations on a lattice are not spread evenly over directions: the first shell has 6 and 12 of
+  // them (which gives an error of 0.006), the last one thousands.
   constexpr double uneven = 0.008;
   REQUIRE(g.r.size() == cells / 2);
   for (std::size_t s = 0; s < g.r.size(); ++s) {
@@ -97,22 +97,22 @@ TEST_CASE("velocity correlations: a shear wave's are known in closed form") {
 }
 
 TEST_CASE("velocity correlations: the trace of a shear wave is its energy") {
-  // <v^2> = 1/2 in two modes +-k, less their share of the self part, 2/N of <v^2>; the wave is
-  // seen through cells, and so divided by sinc^2.
+  // <v^2> = 1/2 in two modes +-k, minus their share of the self part, 2/N of <v^2>. The wave is
+  // seen through cells, hence the division by sinc^2.
   constexpr int cells = 16;
   const auto position = lattice(cells, 16, 3);
   const double k = 2 * pi / 16;
   const double sinc = std::sin(pi / cells) / (pi / cells);
   const double N = cells * cells * cells;
   const auto g = velocity_correlations(position, shear(position, k), 16, 1.01 * k);
-  // Six modes within k_max: two carry the wave, all give up their self part.
+  // Six modes are within k_max: two carry the wave, and the self part of all six is subtracted.
   CHECK(g.trace == Approx((0.5 - 6 * 0.5 / N) / (sinc * sinc)).epsilon(1e-12));
   CHECK(velocity_correlations(position, shear(position, k), 16, 0.99 * k).trace == 0);
 }
 
-TEST_CASE("velocity correlations: none where velocities have none") {
+TEST_CASE("velocity correlations: independent velocities have none") {
   // 40 000 uncorrelated velocities, T = 1: every point and the trace are within 4.5 standard
-  // errors; of some 50 numbers one strays in 3000 seeds.
+  // errors. Of some 50 numbers, one strays in one of 3000 seeds.
   constexpr double strays = 4.5;
   Random random(1);
   constexpr std::size_t count = 40000;
@@ -143,7 +143,7 @@ TEST_CASE("velocity correlations: the same bits every time") {
   CHECK(one.trace == other.trace);
 }
 
-TEST_CASE("velocity correlations: what cannot be measured is refused") {
+TEST_CASE("velocity correlations: bad input is refused") {
   const std::vector<Vector> two(2), three(3);
   CHECK_THROWS_AS(velocity_correlations(two, three, 10, 1), std::invalid_argument);
   CHECK_THROWS_AS(velocity_correlations(two, two, 3, 1), std::invalid_argument);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Intervals that hold the truth as often as they say, and stopping rules that leave it so.
+// Intervals that hold the true value as often as they state, and stopping rules that do not change
+// this.
 #include "analysis/statistics/accuracy.hpp"
 
 #include <doctest/doctest.h>
@@ -20,8 +21,8 @@ using doctest::Approx;
 
 namespace {
 
-// Of 4000 intervals the share that holds the truth is known to 0.34 %. The wanted 93 to 97 % are
-// 5.8 standard errors to either side of the stated 95 %: a false alarm in 10^8 seeds.
+// The share of 4000 intervals that hold the true value is known to 0.34 %. The wanted 93 to 97 %
+// are 5.8 standard errors to either side of the stated 95 %: a false alarm in 10^8 seeds.
 constexpr int trials = 4000;
 constexpr double least_coverage = 0.93, most_coverage = 0.97;
 
@@ -33,7 +34,7 @@ std::vector<double> normal_values(Normal& normal, std::size_t count) {
   return values;
 }
 
-// The same mean and deviation, but skewed, by 0.61: exp(0.2 x) of normal x.
+// The same mean and deviation, but with a skewness of 0.61: exp(0.2 x) of normal x.
 std::vector<double> lognormal_values(Normal& normal, std::size_t count) {
   constexpr double sigma = 0.2;
   const double mean = std::exp(sigma * sigma / 2);
@@ -56,7 +57,7 @@ TEST_CASE("accuracy: Student's quantiles as in tables") {
   CHECK_THROWS_AS(student_t(0), std::invalid_argument);
 }
 
-TEST_CASE("accuracy: intervals of few realizations cover the truth as often as they say") {
+TEST_CASE("accuracy: intervals of few realizations hold the true value as often as stated") {
   for (const std::size_t realizations : {2u, 3u, 5u, 20u}) {
     Normal normal{realizations};
     int covered = 0;
@@ -69,7 +70,7 @@ TEST_CASE("accuracy: intervals of few realizations cover the truth as often as t
   }
 }
 
-TEST_CASE("accuracy: so do intervals of one correlated series by its blocks") {
+TEST_CASE("accuracy: so do intervals from the blocks of one correlated series") {
   // x_k = rho x_{k-1} + noise, mean 0, correlation time 4.5 samples.
   constexpr double rho = 0.8;
   constexpr std::size_t length = 2048;
@@ -86,7 +87,7 @@ TEST_CASE("accuracy: so do intervals of one correlated series by its blocks") {
   CHECK(covered / double(trials) < most_coverage);
 }
 
-TEST_CASE("accuracy: means of disjoint groups scatter by hand") {
+TEST_CASE("accuracy: the scatter of the means of disjoint groups, by hand") {
   const auto scatter = group_scatter(std::vector{1.0, 3.0, 2.0, 6.0, 5.0, 7.0, 0.0, 0.0, 9.0});
   // Pairs: 2, 4, 6, 0, of mean 3; the last value is left over.
   REQUIRE(scatter.size() == 2);  // four pairs; two groups of four are too few
@@ -96,9 +97,10 @@ TEST_CASE("accuracy: means of disjoint groups scatter by hand") {
   CHECK(scatter[1].scatter == Approx(std::sqrt((1 + 1 + 9 + 9) / 3.0)));
 }
 
-TEST_CASE("accuracy: scatter of independent values falls as one over the root") {
-  // 20 sets of 256: the mean slope is known to a fifth of its root of 20; four standard errors are
-  // a false alarm in 16 000 seeds. Its stated error is that of the sets, to 16 %: three of those.
+TEST_CASE("accuracy: the scatter of independent values falls as one over the root") {
+  // 20 sets of 256 values: the mean slope is known to its error over the root of 20, and four
+  // standard errors are a false alarm in 16 000 seeds. The stated error of a slope is the spread of
+  // the sets, known to 16 %; three times that is allowed.
   Normal normal{77};
   std::vector<double> slopes;
   double stated = 0;
@@ -112,7 +114,7 @@ TEST_CASE("accuracy: scatter of independent values falls as one over the root") 
   CHECK(off(standard_deviation(mean), stated) < 0.48);
 }
 
-TEST_CASE("accuracy: scatter of values that depend on their neighbours falls more slowly") {
+TEST_CASE("accuracy: the scatter of correlated values falls more slowly") {
   Normal normal{78};
   std::vector<double> values(1024);
   double last = 0;
@@ -130,13 +132,13 @@ TEST_CASE("accuracy: the number of realizations a standard error takes") {
   CHECK_THROWS_AS(realizations_needed(2, 0), std::invalid_argument);
 }
 
-TEST_CASE("accuracy: realizations at most double before one looks again") {
+TEST_CASE("accuracy: the number of realizations at most doubles in one step") {
   const auto of = [](double spread, std::size_t count) {
     return Estimate{.mean = 0,
                     .standard_error = spread / std::sqrt(static_cast<double>(count)),
                     .count = count};
   };
-  CHECK(next_realizations(of(2, 5), 0.5) == 10);  // of the 16 they ask for
+  CHECK(next_realizations(of(2, 5), 0.5) == 10);  // of the 16 that are needed
   CHECK(next_realizations(of(2, 12), 0.5) == 16);
   CHECK(next_realizations(of(2, 16), 0.5) == 16);
   CHECK(next_realizations(of(2, 40), 0.5) == 40);  // more than enough
@@ -149,7 +151,7 @@ namespace {
 // `affordable` of them.
 struct Stopped {
   double error = 0;     // of the mean
-  bool covers = false;  // whether the stated interval holds the truth
+  bool covers = false;  // whether the stated interval holds the true value
 };
 Stopped run_to_target(Draw draw, Normal& normal, std::size_t pilots, std::size_t affordable) {
   std::vector<double> values = draw(normal, pilots);
@@ -193,14 +195,15 @@ void check_stopping(std::size_t pilots, std::size_t affordable) {
 }  // namespace
 
 TEST_CASE("accuracy: stopping at a target biases neither the mean nor the coverage") {
-  // 16 values on average; 5 to more than 40.
+  // A run takes 16 values on average, from 5 to more than 40.
   for (const std::size_t pilots : {5u, 10u}) check_stopping(pilots, 1000);
 }
 
-TEST_CASE("accuracy: of skewed values the bias is a fraction of a standard error") {
+TEST_CASE("accuracy: the bias of skewed values is a fraction of a standard error") {
   for (const std::size_t pilots : {5u, 10u}) {
     const Stopping result = stopping(lognormal_values, pilots, 1000);
-    // Some -0.18 and -0.11, each known to 0.02; 94 % to 0.4 %.
+    // The biases are some -0.18 and -0.11, each known to 0.02; the coverage is 94 %, known to 0.4
+    // %.
     const double bias = result.bias.mean / 0.5;
     CHECK(bias < 0);  // a sample without a large value stops early
     CHECK(bias > -0.25);
@@ -209,6 +212,6 @@ TEST_CASE("accuracy: of skewed values the bias is a fraction of a standard error
   }
 }
 
-TEST_CASE("accuracy: nor does a budget that ends it before") {
+TEST_CASE("accuracy: a budget that stops a run earlier biases neither the mean nor the coverage") {
   check_stopping(5, 12);
 }

@@ -8,7 +8,7 @@
 
 using namespace haff::analysis;
 
-TEST_CASE("interpolation: the line between the points beside x, and nothing beyond the ends") {
+TEST_CASE("interpolation: the line between the neighbouring points, and nothing beyond the ends") {
   const std::vector x{1.0, 2.0, 4.0}, y{10.0, 30.0, -10.0};
   CHECK(*interpolated(x, y, 1) == 10);
   CHECK(*interpolated(x, y, 1.5) == 20);

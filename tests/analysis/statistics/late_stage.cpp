@@ -14,7 +14,7 @@ using haff::tests::off;
 using namespace haff::analysis;
 using doctest::Approx;
 
-TEST_CASE("late stage: the exponent of a power law, from the range asked for") {
+TEST_CASE("late stage: the exponent of a power law in a given range") {
   std::vector<double> tau, temperature;
   for (int k = 0; k <= 400; ++k) {
     tau.push_back(k);
@@ -26,7 +26,7 @@ TEST_CASE("late stage: the exponent of a power law, from the range asked for") {
   CHECK(fit.standard_error < 1e-10);
 }
 
-TEST_CASE("late stage: scatter makes a standard error") {
+TEST_CASE("late stage: the standard error comes from the scatter") {
   // Alternating residuals of size s: standard error s sqrt(n/(n-2)) / sqrt(sum (x - mean)^2).
   std::vector<double> tau, temperature;
   double sum = 0, squares = 0;

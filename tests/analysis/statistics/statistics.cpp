@@ -47,18 +47,18 @@ TEST_CASE("statistics: mean and standard error by hand") {
   CHECK(of_three.count == 3);
 }
 
-TEST_CASE("statistics: one value has no error, none is refused") {
+TEST_CASE("statistics: one value has no error, and no values are refused") {
   CHECK(std::isnan(estimate(std::vector{5.0}).standard_error));
   CHECK_THROWS_AS(estimate({}), std::invalid_argument);
 }
 
-TEST_CASE("statistics: deviations of numbers far from zero are not lost") {
+TEST_CASE("statistics: the deviations of numbers far from zero keep their digits") {
   const auto late = estimate(std::vector{1e8 + 1, 1e8 + 2, 1e8 + 3});
   CHECK(late.standard_error == Approx(std::sqrt(2.0 / 6)));
 }
 
-TEST_CASE("statistics: blocks find the correlation time of a series that has one") {
-  // 64 series of 4096: the mean of the estimates is known to 3 %, the method's bias is 5 %.
+TEST_CASE("statistics: blocks find the correlation time of a series") {
+  // 64 series of 4096 values: the mean of the estimates is known to 3 %; the method's bias is 5 %.
   for (const double rho : {0.0, 0.8, 0.95}) {
     const double expected = (1 + rho) / (2 * (1 - rho));
     double mean = 0;
@@ -70,8 +70,8 @@ TEST_CASE("statistics: blocks find the correlation time of a series that has one
 }
 
 TEST_CASE("statistics: intervals of correlated series hold their mean as often as stated") {
-  // Two standard errors: 95.4 % of Gaussian means. Of 400 series the share is known to 1 %
-  // (2.5 standard errors: 2.6 %); blocks are finite in number, which costs another percent.
+  // Two standard errors hold 95.4 % of Gaussian means. The share among 400 series is known to 1 %
+  // (2.5 standard errors: 2.6 %); the finite number of blocks costs another percent.
   int covered = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     const Estimate mean = block_estimate(autoregressive(0.8, 2048, seed)).estimate;
@@ -82,9 +82,10 @@ TEST_CASE("statistics: intervals of correlated series hold their mean as often a
 }
 
 TEST_CASE("statistics: the error of a short, correlated series is not too small by a factor") {
-  // 61 samples that remember for 5.8, as the temperature of a heated gas does. Without what blocks
-  // know of each other the root mean square of the error was 0.52 of the true one. 400 series know
-  // it to 5 %; a tenth is left by the series whose memory exceeds an eighth of their length.
+  // 61 samples with a correlation time of 5.8, like the temperature of a heated gas. Without the
+  // correction for correlated blocks the root mean square of the error was 0.52 of the true one.
+  // 400 series determine it to 5 %; the series whose correlations extend over more than an eighth
+  // of their length leave a tenth.
   constexpr double rho = 0.84;
   constexpr int series = 400;
   double mean_square = 0, error_square = 0;
@@ -97,8 +98,8 @@ TEST_CASE("statistics: the error of a short, correlated series is not too small 
   CHECK(std::sqrt(error_square / mean_square) < 1.2);
 }
 
-// With fewer, the error of the error would exceed a quarter.
-TEST_CASE("statistics: eight blocks at least, however long a series remembers") {
+// With fewer blocks, the error of the error would exceed a quarter.
+TEST_CASE("statistics: at least eight blocks, however long a series is correlated") {
   for (const double rho : {0.99, 0.999})
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
       const BlockEstimate blocks = block_estimate(autoregressive(rho, 256, seed));
@@ -107,7 +108,7 @@ TEST_CASE("statistics: eight blocks at least, however long a series remembers") 
     }
 }
 
-TEST_CASE("statistics: a constant series has no error, a short one is refused") {
+TEST_CASE("statistics: a constant series has no error, and a short one is refused") {
   CHECK(block_estimate(std::vector<double>(100, 3.0)).estimate.standard_error == 0);
   CHECK_THROWS_AS(block_estimate(std::vector{1.0}), std::invalid_argument);
 }

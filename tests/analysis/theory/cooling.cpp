@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Haff's law, decay rates and the crossover of series made up for the purpose.
+// Haff's law, decay rates and tau_c of artificial series.
 #include "analysis/theory/cooling.hpp"
 
 #include <doctest/doctest.h>
@@ -31,7 +31,7 @@ TEST_CASE("cooling: a gas that follows Haff has gamma / gamma_0 = 1") {
   CHECK(std::isnan(gamma_ratio(1, 1, 1, 1.0)));
 }
 
-TEST_CASE("cooling: tau_c is where T is twice Haff's, to the digit if ln T is linear") {
+TEST_CASE("cooling: tau_c is where T is twice Haff's, exactly if ln T is linear") {
   // T/T_Haff = exp(tau/40): doubles at 40 ln 2 = 27.7, between samples.
   std::vector<double> tau, temperature;
   for (int k = 0; k <= 50; ++k) {
@@ -43,7 +43,7 @@ TEST_CASE("cooling: tau_c is where T is twice Haff's, to the digit if ln T is li
   CHECK(*found == Approx(40 * std::numbers::ln2).epsilon(1e-13));
 }
 
-TEST_CASE("cooling: the first crossing counts when T comes back") {
+TEST_CASE("cooling: the first of several crossings counts") {
   const std::vector<double> tau = {0, 1, 2, 3};
   std::vector<double> temperature;
   for (const double excess : {1.0, 4.0, 1.0, 4.0}) {
@@ -67,7 +67,7 @@ TEST_CASE("cooling: tau_c survives temperatures near the end of the exponent ran
 
 TEST_CASE("cooling: collision rate and pressure by their definitions") {
   CHECK(collision_rate(500, 100, 2) == Approx(5));
-  // Ideal gas without virial; and 3 of virial a unit time in V = 10.
+  // An ideal gas without virial, and then a virial of 3 per unit time in V = 10.
   CHECK(pressure(0.4, 0.5, 0, 100, 1) == Approx(0.2));
   CHECK(pressure(10, 0.5, 3, 100, 1) == Approx(5.1));
 }
@@ -87,7 +87,7 @@ TEST_CASE("cooling: between two samples of Haff's law the mean temperature is th
 
 TEST_CASE(
     "cooling: the error of the mean temperature falls with the fourth power of the interval") {
-  // T = exp(-t + t^2/20), which follows no law of Haff; its mean over [1 - h, 1] by Simpson's rule
+  // T = exp(-t + t^2/20), which is not Haff's law; its mean over [1 - h, 1] is by Simpson's rule
   // with 2000 intervals, exact to 1e-13.
   const auto temperature = [](double t) { return std::exp(-t + t * t / 20); };
   const auto error = [&](double h) {
@@ -110,7 +110,7 @@ TEST_CASE(
   CHECK(error(0.2) / error(0.1) > 13);
 }
 
-TEST_CASE("cooling: mean temperature of a gas that stays as hot, or was measured once") {
+TEST_CASE("cooling: the mean of a constant temperature; a single sample is refused") {
   CHECK(mean_temperature(std::vector<double>{0, 1, 2}, std::vector<double>{0.7, 0.7, 0.7}) ==
         doctest::Approx(0.7).epsilon(1e-15));
   CHECK_THROWS_AS(mean_temperature(std::vector<double>{0}, std::vector<double>{1}),

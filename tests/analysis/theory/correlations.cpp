@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Velocity correlations against sum rules and against the same theory done in wave numbers.
+// Velocity correlations against sum rules and against the same theory in wave-number space.
 #include "analysis/theory/correlations.hpp"
 
 #include <doctest/doctest.h>
@@ -29,7 +29,7 @@ double simpson(const Function& f, double a, double b, int intervals) {
   return sum * h / 3;
 }
 
-// int_0^S ds e^{s(1 - y)}: what a mode of xi^2 k^2 = y has gathered when s = S.
+// int_0^S ds e^{s(1 - y)}: the energy that a mode of xi^2 k^2 = y has gathered at s = S.
 double gathered(double y, double s) {
   return std::abs(1 - y) < 1e-9 ? s : std::expm1((1 - y) * s) / (1 - y);
 }
@@ -42,7 +42,8 @@ TEST_CASE("correlations: the cutoff at n = 0.40 is 1.3888") {
 
 TEST_CASE("correlations: an incompressible field has no divergence") {
   // G_perp = G_par + r/(d-1) dG_par/dr.
-  constexpr double h = 1e-3;  // central difference: h^2 times third derivatives of order one
+  constexpr double h =
+      1e-3;  // central difference: the error is h^2 times third derivatives of order one
   for (const int d : {2, 3}) {
     const Gas gas{.e = 0.8, .n = 0.4, .d = d};
     for (const double r : {2.0, 5.0, 12.0}) {
@@ -59,13 +60,14 @@ TEST_CASE("correlations: an incompressible field has no divergence") {
 TEST_CASE("correlations: the trace is the transform of the modes' energies") {
   // (d-1) G_perp + G_par = T_Haff/(m n) int d^dk/(2pi)^d e^{ikr}
   //                        [(d-1) gathered(xi_perp^2 k^2) + gathered(xi_par^2 k^2) if compressible]
-  // in 3-d; a Gaussian in k is left out beyond the last mode that grows.
+  // in 3-d. The Gaussian in k is cut off beyond the last mode that grows.
   const Gas gas{.e = 0.8, .n = 0.4};
   const Lengths length = lengths(gas);
   const double tau = 50, s = 2 * gamma0(gas.e) * tau, r = 6;
   const auto transform = [&](double xi) {
-    // gathered() falls as 1/k^2: subtract (1 - e^{-..})-free tail exactly, 1/(xi^2k^2 + 1), whose
-    // transform is exp(-r/xi) / (4 pi r xi^2), and integrate the rest, which falls as 1/k^4.
+    // gathered() falls as 1/k^2: subtract the tail without its factor (1 - e^{-..}) exactly,
+    // 1/(xi^2k^2 + 1), whose transform is exp(-r/xi) / (4 pi r xi^2), and integrate the rest, which
+    // falls as 1/k^4.
     const auto rest = [&](double k) {
       const double y = xi * xi * k * k;
       return k * std::sin(k * r) * (gathered(y, s) - 1 / (1 + y));
@@ -86,14 +88,15 @@ TEST_CASE("correlations: the trace is the transform of the modes' energies") {
 }
 
 TEST_CASE("correlations: without sound modes the compressible fluid is the incompressible one") {
-  // At r far below xi_par and times at which only xi_perp matters, the longitudinal part is small.
+  // At r far below xi_par, and at times at which only xi_perp matters, the longitudinal part is
+  // small.
   const Gas gas{.e = 0.98, .n = 0.4};
   const auto simple = velocity_correlation(gas, 3, 100, Fluid::incompressible);
   const auto full = velocity_correlation(gas, 3, 100, Fluid::compressible);
   CHECK(off(full.parallel, simple.parallel) < 0.1);
 }
 
-TEST_CASE("correlations: the trace at zero sums all modes below the cutoff") {
+TEST_CASE("correlations: the trace at r = 0 is the sum of all modes below the cutoff") {
   for (const int d : {2, 3}) {
     const Gas gas{.e = 0.85, .n = 0.3, .d = d};
     const double xi = lengths(gas).transverse, k_max = cutoff_wavenumber(gas.n, 0.3, d);
@@ -124,7 +127,7 @@ TEST_CASE("correlations: nothing has built up at tau = 0") {
   CHECK(correlation_trace({.e = 0.8}, 0) == 0);
 }
 
-TEST_CASE("correlations: what has no answer is refused") {
+TEST_CASE("correlations: bad input is refused") {
   CHECK_THROWS_AS(velocity_correlation({.e = 1}, 1, 1, Fluid::incompressible),
                   std::invalid_argument);
   CHECK_THROWS_AS(velocity_correlation({.e = 0.8}, 0, 1, Fluid::incompressible),

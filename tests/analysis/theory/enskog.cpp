@@ -20,10 +20,10 @@ using doctest::Approx;
 
 namespace {
 constexpr double n = 0.40;
-constexpr double digits = 5.1e-5;  // half of the last one that is given
+constexpr double digits = 5.1e-5;  // half of the last digit given
 }  // namespace
 
-TEST_CASE("enskog: the fluid at n = 0.40 has the contact value, rate and viscosities it should") {
+TEST_CASE("enskog: contact value, collision rate and viscosities at n = 0.40") {
   CHECK(std::abs(contact_value(n) - 1.8120) < digits);
   const Transport fluid = transport(n, 1);
   CHECK(std::abs(fluid.collision_rate - 5.1386) < digits);
@@ -38,7 +38,7 @@ TEST_CASE("enskog: correlation lengths at n = 0.40") {
   CHECK(std::abs(lengths({.e = 0.90, .n = n}).longitudinal - 11.0947) < digits);
 }
 
-TEST_CASE("enskog: coefficients go with the square root of temperature, lengths not at all") {
+TEST_CASE("enskog: coefficients are proportional to sqrt(T), and lengths do not depend on T") {
   for (const int d : {2, 3}) {
     const Transport cold = transport(n, 0.25, d), warm = transport(n, 1, d);
     CHECK(warm.collision_rate == Approx(2 * cold.collision_rate));
@@ -52,13 +52,13 @@ TEST_CASE("enskog: the dilute gas is Boltzmann's") {
   constexpr double dilute = 1e-6;
   const double thermal = 1 / std::sqrt(std::numbers::pi);
   const Transport spheres = transport(dilute, 1, 3), disks = transport(dilute, 1, 2);
-  // Density corrections are of order n; Sonine corrections are those of Chapman and Cowling.
+  // Density corrections are of order n; Sonine corrections are Chapman and Cowling's.
   CHECK(off(spheres.viscosity, 1.016 * 5 / 16 * thermal) < 1e-5);
   CHECK(off(spheres.conductivity, 1.025 * 75 / 64 * thermal) < 1e-5);
   CHECK(off(disks.viscosity, 1.022 / 2 * thermal) < 1e-5);
   CHECK(off(disks.conductivity, 1.029 * 2 * thermal) < 1e-5);
-  // Prandtl number (specific heat at constant pressure)*eta/kappa: 2/3 in space and 1/2 in the
-  // plane to first order in Sonine polynomials, hence to 1 %.
+  // The Prandtl number (specific heat at constant pressure)*eta/kappa is 2/3 in space and 1/2 in
+  // the plane to first order in Sonine polynomials, hence the tolerance of 1 %.
   CHECK(off(2.5 * spheres.viscosity / spheres.conductivity, 2.0 / 3) < 0.01);
   CHECK(off(2 * disks.viscosity / disks.conductivity, 0.5) < 0.01);
   CHECK(off(spheres.collision_rate, 4 * std::sqrt(std::numbers::pi) * dilute) < 1e-5);
@@ -67,8 +67,8 @@ TEST_CASE("enskog: the dilute gas is Boltzmann's") {
 TEST_CASE("enskog: collisional transfer has the form of the first Sonine approximation") {
   // kappa = kappa_B [(1 + c phi chi)^2 / chi + ...], V. Garzo and J. W. Dufty, PRE 59, 5895 (1999):
   // c = 3 2^(d-1) / (d + 2), and the rest is twice the heat capacity times the bulk viscosity,
-  // uncorrected by the Sonine factor. Constants of the table are rounded to three or four
-  // digits: 0.757 is good to 7e-4, of a term that is a third.
+  // without the Sonine correction. The constants of the table are rounded to three or four digits:
+  // 0.757 is good to 7e-4, in a term that is a third of the sum.
   for (const int d : {2, 3}) {
     const double phi = packing_fraction(n, d), chi = contact_value(n, d);
     const Transport fluid = transport(n, 1, d);
@@ -96,7 +96,7 @@ TEST_CASE("enskog: spheres obey the Carnahan-Starling equation of state") {
   CHECK(equation_of_state(n).z == Approx(z).epsilon(1e-14));
 }
 
-TEST_CASE("enskog: what has no answer is refused") {
+TEST_CASE("enskog: bad input is refused") {
   CHECK_THROWS_AS(lengths({.e = 1, .n = n}), std::invalid_argument);
   CHECK_THROWS_AS(contact_value(2.0), std::invalid_argument);
   CHECK_THROWS_AS(contact_value(n, 4), std::invalid_argument);
@@ -108,7 +108,7 @@ TEST_CASE("enskog: disks have Henderson's pressure, z = (1 + phi^2/8) / (1 - phi
     CHECK(equation_of_state(density, 2).z ==
           Approx((1 + phi * phi / 8) / ((1 - phi) * (1 - phi))).epsilon(1e-14));
   }
-  // Its third virial coefficient, 3.125 phi^2, is exact to a thousandth: 16/3 - 4 sqrt(3)/pi
+  // The third virial coefficient, 3.125 phi^2, is exact to a thousandth: 16/3 - 4 sqrt(3)/pi
   // (L. Tonks, Phys. Rev. 50, 955 (1936)).
   const double exact = 16.0 / 3 - 4 * std::numbers::sqrt3 / std::numbers::pi;
   CHECK(off(3.125, exact) < 1e-3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The uncorrelated cooling gas: limits and extrema that the theory is known for.
+// The uncorrelated cooling gas: known limits and extrema of the theory.
 #include "analysis/theory/enskog_boltzmann.hpp"
 
 #include <doctest/doctest.h>
@@ -59,7 +59,7 @@ TEST_CASE("enskog-boltzmann: the plateau is van Noije and Ernst's") {
 }
 
 TEST_CASE("enskog-boltzmann: above e = 0.8 the plateau is deepest near 0.865, in 2-d 0.872") {
-  CHECK(std::abs(e_of_largest_a2(3) - 0.865) < 6e-4);  // three digits, and steps of 1e-4
+  CHECK(std::abs(e_of_largest_a2(3) - 0.865) < 6e-4);  // three digits are given, and steps are 1e-4
   CHECK(std::abs(e_of_largest_a2(2) - 0.872) < 6e-4);
 }
 
@@ -69,8 +69,7 @@ TEST_CASE("enskog-boltzmann: rates of a Gaussian are Haff's") {
   CHECK(boltzmann_gamma_ratio(-0.02) == Approx((1 - 0.00375) / (1 + 0.00125)));
 }
 
-TEST_CASE(
-    "enskog-boltzmann: a gas kept warm deviates less than one that cools, and the other way") {
+TEST_CASE("enskog-boltzmann: a heated gas deviates less from a Gaussian than a cooling one") {
   CHECK(heated_a2(1) == 0);
   CHECK(heated_a2(0.5) > 0);
   CHECK(heated_a2(0.5) < boltzmann_a2_plateau(0.5));
@@ -85,7 +84,7 @@ TEST_CASE("enskog-boltzmann: the first slope of a2 is A, that of a3 is positive 
             Approx((e * e - 1) * (2 * e * e - 1) / (d * (d + 2))).epsilon(1e-14));
     CHECK(boltzmann_initial_slopes(1, d).a3 == 0);
   }
-  // e = 0 in 3-d, by hand: J = -(26.25 + 21 + 6) - 2 (7.5 + 6) - 6 = -86.25 of <v^6>, so that
-  // a_3' = 3/15 - (-86.25/105 + 1).
+  // e = 0 in 3-d, by hand: the mean change of v^6 is J = -(26.25 + 21 + 6) - 2 (7.5 + 6) -
+  // 6 = -86.25, so that a_3' = 3/15 - (-86.25/105 + 1).
   CHECK(boltzmann_initial_slopes(0, 3).a3 == Approx(0.2 + 86.25 / 105 - 1).epsilon(1e-14));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The uncorrelated cooling mixture: limits in which its formulas are known.
+// The uncorrelated cooling mixture: limits in which the results are known.
 #include "analysis/theory/mixture.hpp"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ using haff::tests::off;
 using namespace haff::analysis;
 using doctest::Approx;
 
-TEST_CASE("mixture: of equal spheres it is the gas of one species") {
+TEST_CASE("mixture: with equal spheres it is the gas of one species") {
   const BinaryMixture gas{.e = 0.8, .n = 0.4, .fraction = 0.3};
   CHECK(packing_fraction(gas) == Approx(packing_fraction(0.4)).epsilon(1e-14));
   for (const int i : {1, 2}) {
@@ -28,7 +28,7 @@ TEST_CASE("mixture: of equal spheres it is the gas of one species") {
   CHECK(temperature_ratio(gas) == Approx(1).epsilon(1e-9));
 }
 
-TEST_CASE("mixture: of equal disks it is the gas of one species") {
+TEST_CASE("mixture: with equal disks it is the gas of one species") {
   const BinaryMixture gas{.e = 0.8, .n = 0.4, .fraction = 0.3, .d = 2};
   CHECK(packing_fraction(gas) == Approx(packing_fraction(0.4, 2)).epsilon(1e-14));
   for (const int i : {1, 2}) {
@@ -56,28 +56,28 @@ TEST_CASE("mixture: elastic spheres of any kind have one temperature, and keep i
   const BinaryMixture gas{
       .e = 1, .n = 0.3, .fraction = 0.6, .diameter_ratio = 0.4, .mass_ratio = 0.1};
   CHECK(temperature_ratio(gas) == Approx(1).epsilon(1e-9));
-  CHECK(std::abs(cooling_rate(gas, 1, 1, 1)) < 1e-14);  // of rates of order one
-  // Out of equilibrium energy passes from one to the other, and none is lost.
+  CHECK(std::abs(cooling_rate(gas, 1, 1, 1)) < 1e-14);  // rates are of order one
+  // Out of equilibrium energy passes from one species to the other, and none is lost.
   const double lost = 0.4 * 2 * cooling_rate(gas, 1, 2, 1) + 0.6 * 1 * cooling_rate(gas, 2, 2, 1);
   CHECK(std::abs(lost) < 1e-14);
   CHECK(cooling_rate(gas, 1, 2, 1) > 0.01);
 }
 
-TEST_CASE("mixture: the heavier species is the warmer one, the more the less elastic") {
+TEST_CASE("mixture: the heavier species is warmer, the more so at smaller e") {
   double before = 1;
   for (const double e : {0.95, 0.9, 0.8, 0.7}) {
     const double ratio = temperature_ratio(
         {.e = e, .n = 0.1, .fraction = 0.5, .diameter_ratio = 1, .mass_ratio = 0.1});
     CHECK(ratio > before);
     before = ratio;
-    // The other way round it is the inverse.
+    // With the species exchanged the ratio is the inverse.
     const double inverse = temperature_ratio(
         {.e = e, .n = 0.1, .fraction = 0.5, .diameter_ratio = 1, .mass_ratio = 10});
     CHECK(ratio * inverse == Approx(1).epsilon(1e-9));
   }
 }
 
-TEST_CASE("mixture: whatever is called species 1, the ratio is the same") {
+TEST_CASE("mixture: the ratio does not depend on which species is called 1") {
   const BinaryMixture gas{
       .e = 0.8, .n = 0.2, .fraction = 0.3, .diameter_ratio = 0.5, .mass_ratio = 0.2};
   // In units of the smaller sphere.

@@ -40,7 +40,7 @@ TEST_CASE("modes: long longitudinal waves grow as gamma_0 (1 - xi_par^2 k^2)") {
 
 TEST_CASE("modes: short waves are two damped sound waves and damped heat") {
   const Gas gas{.e = 0.9, .n = 0.4};
-  // Beyond gamma_0/l_0 by a factor of ten, so that sound propagates, and stable.
+  // k is ten times gamma_0/l_0, where sound propagates and all modes are stable.
   const ModeSpectrum s = modes(gas, 10 * gamma0(gas.e) / lengths(gas).free_path);
   int waves = 0;
   for (const auto& mode : s.longitudinal) {

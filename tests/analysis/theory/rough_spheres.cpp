@@ -14,7 +14,7 @@ using haff::tests::off;
 using namespace haff::analysis;
 using doctest::Approx;
 
-TEST_CASE("rough spheres: perfectly rough and elastic ones share their energy equally") {
+TEST_CASE("rough spheres: perfectly rough and elastic spheres share their energy equally") {
   for (const double q : {0.1, 0.4, 2.0 / 3}) {
     CHECK(rough_temperature_ratio(1, {1, q}) == Approx(1).epsilon(1e-14));
     const auto late = rough_temperatures(400, 1, {1, q}, {.translation = 1, .rotation = 0});
@@ -34,7 +34,7 @@ TEST_CASE("rough spheres: the ratio as Santos, Kremer and dos Santos write it") 
       }
 }
 
-TEST_CASE("rough spheres: the ratio is where the temperatures come to, from either side") {
+TEST_CASE("rough spheres: the temperatures approach the ratio from either side") {
   for (const double beta : {-0.5, 0.5}) {
     const double ratio = rough_temperature_ratio(0.8, {beta, 0.4});
     for (const double rotation : {0.0, 10.0}) {
@@ -53,14 +53,14 @@ TEST_CASE("rough spheres: the temperatures obey their equations") {
   CHECK(off(rate, -4.0 / 3 * (A * at(tau).translation - B * at(tau).rotation)) < 1e-6);
 }
 
-TEST_CASE("rough disks: three temperatures of motion become one if nothing is lost") {
+TEST_CASE("rough disks: the temperatures of all motions become equal if no energy is lost") {
   const auto late = rough_temperatures(400, 1, {1, 0.5, 2}, {.translation = 1, .rotation = 0});
   CHECK(late.translation == Approx(2.0 / 3).epsilon(1e-12));
   CHECK(late.rotation == Approx(2.0 / 3).epsilon(1e-12));
   CHECK(rough_temperature_ratio(1, {1, 0.5, 2}) == Approx(1).epsilon(1e-14));
 }
 
-TEST_CASE("rough disks: the temperatures obey their equations, and come to the ratio") {
+TEST_CASE("rough disks: the temperatures obey their equations and approach the ratio") {
   const double e = 0.7, beta = 0.3, q = 0.5, tau = 2, step = 1e-4;
   const double eta = q * (1 + beta) / (2 * (1 + q));
   const Roughness disks{beta, q, 2};
@@ -77,7 +77,7 @@ TEST_CASE("rough disks: the temperatures obey their equations, and come to the r
         Approx(rough_temperature_ratio(e, disks)).epsilon(1e-9));
 }
 
-TEST_CASE("rough spheres: smooth ones cool by Haff's law and keep their spins") {
+TEST_CASE("rough spheres: smooth spheres cool by Haff's law and keep their spins") {
   const auto later = rough_temperatures(3, 0.8, {-1, 0.4}, {1, 0.5});
   CHECK(later.translation == Approx(std::exp(-(1 - 0.64) / 3 * 3)).epsilon(1e-14));
   CHECK(later.rotation == Approx(0.5).epsilon(1e-14));

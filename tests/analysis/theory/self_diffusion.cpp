@@ -28,7 +28,7 @@ TEST_CASE("self_diffusion: Enskog's D beside that of simulations") {
   const auto excess = [](double n) {
     return simulated_self_diffusion_per_collision(n) / self_diffusion_per_collision(n) - 1;
   };
-  // Within the third order of density; the fit begins at the first Sonine approximation.
+  // The fit begins at the first Sonine approximation.
   CHECK(excess(1e-4) == Approx(1 / 1.019 - 1).epsilon(0.02));
   CHECK(excess(0.1) == Approx(0.024).epsilon(0.03));
   CHECK(excess(0.2) == Approx(0.073).epsilon(0.03));
@@ -41,7 +41,7 @@ TEST_CASE("self_diffusion: Enskog's D beside that of simulations") {
   CHECK_THROWS_AS(simulated_self_diffusion_per_collision(1.1), std::invalid_argument);
 }
 
-TEST_CASE("self_diffusion: the velocity is forgotten as D says") {
+TEST_CASE("self_diffusion: D is the integral of the velocity autocorrelation") {
   // D/omega = T/omega^2 times the integral of the autocorrelation, in the first approximation.
   const double n = 0.05, rate = transport(n, 1).collision_rate;
   CHECK(self_diffusion_per_collision(n) / 1.019 == Approx(1.5 / (rate * rate)).epsilon(1e-12));
