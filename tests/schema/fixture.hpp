@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What the tests of this folder share: a small campaign.
+// A small campaign, shared by the tests of this folder.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ inline Job cooling(double e = 0.8, std::uint64_t seed = 1) {
           .observables = {"temperature", "laguerre"}};
 }
 
-// Cooling jobs with the equilibrations they need.
+// Cooling jobs with the equilibrations that they need.
 inline std::vector<Planned> plan(const std::vector<Job>& jobs, double tau_max = 90) {
   std::vector<Planned> all;
   for (const Job& job : jobs) {
@@ -44,7 +44,7 @@ inline std::vector<std::byte> bytes(std::size_t size, unsigned start = 0) {
   return made;
 }
 
-// Run a claimed job to its end in one go.
+// Runs a claimed job to its end at once.
 inline Status complete(Store& store, const Claim& claim, const std::vector<Sample>& samples = {},
                        const std::optional<Results>& results = std::nullopt) {
   const Commit commit{.samples = samples,
@@ -53,12 +53,12 @@ inline Status complete(Store& store, const Claim& claim, const std::vector<Sampl
   return store.finish(claim.lease, commit, results, claim.tau_max);
 }
 
-// Run every equilibration of a store.
+// Runs every equilibration of a store.
 inline void equilibrate(Store& store) {
   while (store.summary().waiting > 0) complete(store, *store.claim(me, "test"));
 }
 
-// The error that something throws, and what it says.
+// The error that `work` throws, and its message.
 template <class Work>
 StoreError error_of(Work work) {
   try {

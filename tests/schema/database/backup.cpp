@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A backup is the store at one moment, in one file, whatever is going on.
+// A backup is the store at one moment, in one file, whatever else happens to the store meanwhile.
 #include "schema/database/backup.hpp"
 
 #include <doctest/doctest.h>
@@ -12,7 +12,7 @@
 
 using namespace haff::schema;
 
-TEST_CASE("a backup holds what the store's log holds, and no process holds its jobs") {
+TEST_CASE("a backup has all that is in the store's log, and its jobs are held by no process") {
   const TemporaryFolder folder;
   Store store = Store::create(folder / "a.db");
   store.open_log();
@@ -37,7 +37,7 @@ TEST_CASE("a backup holds what the store's log holds, and no process holds its j
   CHECK_FALSE(std::filesystem::exists(folder / "b.db-journal"));
 }
 
-TEST_CASE("a backup replaces nothing") {
+TEST_CASE("a backup does not replace a file") {
   const TemporaryFolder folder;
   Store::create(folder / "a.db").add(plan({cooling()}));
   Store::create(folder / "b.db");
@@ -55,7 +55,7 @@ TEST_CASE("backups that are taken while others write are each one moment of the 
   const Claim claim = *store.claim(me, "test");
   std::jthread writer([&](const std::stop_token& stop) {
     Store mine = Store::open(folder / "a.db");
-    // Sample and checkpoint of one commit: in each copy both, or neither.
+    // Each copy has both the sample and the checkpoint of a commit, or neither.
     for (int k = 1; !stop.stop_requested(); ++k) {
       const double tau = k;
       mine.commit(claim.lease, {.samples = {{.tau = tau, .time = tau, .temperature = 1}},
@@ -76,7 +76,7 @@ TEST_CASE("backups that are taken while others write are each one moment of the 
   }
 }
 
-TEST_CASE("a damaged store gives no backup") {
+TEST_CASE("a damaged store is not backed up") {
   const TemporaryFolder folder;
   Store::create(folder / "a.db").add(plan({cooling()}));
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Opening a store: what is made, what is brought forward, what is refused.
+// Opening a store: which stores are made, brought forward and refused.
 #include "schema/database/database.hpp"
 
 #include <doctest/doctest.h>
@@ -24,20 +24,21 @@ std::string contents(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// A connection of another program, by plain SQLite.
+// The connection of another program, which uses plain SQLite.
 SQLite::Database plain(const std::filesystem::path& path) {
   return {path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE};
 }
 
 }  // namespace
 
-TEST_CASE("a new store is marked as one") {
+TEST_CASE("a new store is marked as a store") {
   const TemporaryFolder folder;
   Store::create(folder / "a.db");
   SQLite::Database sqlite = plain(folder / "a.db");
   CHECK(sqlite.execAndGet("PRAGMA application_id").getInt() == application_id);
   CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == newest_version());
-  CHECK(sqlite.execAndGet("PRAGMA journal_mode").getString() == "delete");  // plain at rest
+  CHECK(sqlite.execAndGet("PRAGMA journal_mode").getString() ==
+        "delete");  // no log while no program uses it
 }
 
 TEST_CASE("every table is strict") {
@@ -80,7 +81,7 @@ TEST_CASE("two processes may make a store at the same time") {
   }
 }
 
-TEST_CASE("a store that must be there is not made") {
+TEST_CASE("a store that should exist is not made") {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";
   const std::string message = path.string() + ": there is no such store";
@@ -99,7 +100,7 @@ TEST_CASE("a store in a folder that does not exist is refused") {
                                                      ", is not there; make it first");
 }
 
-TEST_CASE("an empty file becomes a store, but is none yet") {
+TEST_CASE("an empty file may become a store, but is not one yet") {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";
   std::ofstream empty(path);
@@ -144,7 +145,7 @@ TEST_CASE("a store of a newer program is refused") {
   CHECK(refusal([&] { Reader{path}; }) == message);
 }
 
-TEST_CASE("migration runs the scripts a store has not seen, once") {
+TEST_CASE("migration runs the scripts that a store has not seen, once") {
   const TemporaryFolder folder;
   SQLite::Database sqlite = plain(folder / "a.db");
   const std::vector<std::string_view> scripts{"CREATE TABLE a (x); INSERT INTO a VALUES (1);",
@@ -159,7 +160,7 @@ TEST_CASE("migration runs the scripts a store has not seen, once") {
 
 namespace {
 
-// An identity as the stores up to version 7 have it.
+// An identity as it is in stores up to version 7.
 std::string with_precision(std::string identity) {
   return identity.insert(identity.find(R"(,"sample_every":)"), R"(,"precision":"double")");
 }
@@ -280,7 +281,7 @@ TEST_CASE("a store is not brought forward while a worker holds a job") {
   CHECK(Reader(path).summary().jobs.at(Status::pending) == 1);
 }
 
-TEST_CASE("a store that was brought forward under a running program is left alone by it") {
+TEST_CASE("a running program leaves a store alone that was brought forward meanwhile") {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";
   Store store = Store::create(path);
@@ -325,7 +326,7 @@ TEST_CASE("readers see a store that a killed writer left with its log, and leave
   Store writer = Store::create(folder / "a.db");
   writer.open_log();
   writer.add(plan({cooling()}));
-  // What a crash leaves behind: the log, not yet copied into the file.
+  // A crash leaves the log behind, not yet copied into the file.
   for (const char* suffix : {"", "-wal"})
     std::filesystem::copy_file((folder / "a.db").string() + suffix,
                                (folder / "b.db").string() + suffix);
@@ -333,10 +334,10 @@ TEST_CASE("readers see a store that a killed writer left with its log, and leave
   CHECK_FALSE(Reader(folder / "b.db").lacks_log());
   CHECK(std::filesystem::exists(folder / "b.db-wal"));
   CHECK(Store::open(folder / "b.db").faults().empty());
-  CHECK_FALSE(std::filesystem::exists(folder / "b.db-wal"));  // a writer tidies up
+  CHECK_FALSE(std::filesystem::exists(folder / "b.db-wal"));  // a writer removes the log
 }
 
-TEST_CASE("a store that was copied without its log is known as one") {
+TEST_CASE("a store that was copied without its log is recognized") {
   const TemporaryFolder folder;
   Store writer = Store::create(folder / "a.db");
   writer.open_log();
@@ -350,7 +351,7 @@ TEST_CASE("a store that was copied without its log is known as one") {
   CHECK_FALSE(Reader(folder / "a.db").lacks_log());
 }
 
-TEST_CASE("the log is copied by one, begins anew, and is gone when the last writer is") {
+TEST_CASE("one process copies the log, which begins anew and is gone with the last writer") {
   const TemporaryFolder folder;
   const auto log = folder / "a.db-wal";
   Store store = Store::create(folder / "a.db");
@@ -358,7 +359,7 @@ TEST_CASE("the log is copied by one, begins anew, and is gone when the last writ
   store.open_log();
   store.add(plan({cooling()}));
   const Claim claim = *store.claim(me, "test");
-  // Far beyond the thousand pages at which SQLite would copy by itself.
+  // Far more than the thousand pages at which SQLite would copy the log by itself.
   for (int k = 1; k <= 4; ++k)
     store.commit(claim.lease,
                  {.checkpoint = Checkpoint{.tau = 10.0 * k, .state = bytes(std::size_t{4} << 20)}});
@@ -377,7 +378,7 @@ TEST_CASE("the log is copied by one, begins anew, and is gone when the last writ
   CHECK(store.faults().empty());
 }
 
-TEST_CASE("a reader that does not end keeps the log from beginning anew, which is told") {
+TEST_CASE("a reader that does not end keeps the log from beginning anew, and this is reported") {
   const TemporaryFolder folder;
   Store store = Store::create(folder / "a.db");
   store.open_log();
@@ -389,7 +390,7 @@ TEST_CASE("a reader that does not end keeps the log from beginning anew, which i
   CHECK_FALSE(store.copy_log().is_copied);
 }
 
-TEST_CASE("a store that vanishes from under its writer is noticed, and saved from what is open") {
+TEST_CASE("the loss of a store is noticed while it is written, and its data are saved") {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";
   Store store = Store::create(path);
@@ -424,7 +425,7 @@ TEST_CASE("a store that vanishes from under its writer is noticed, and saved fro
     store.abandon_log();
     CHECK(contents(path) == other);
     CHECK_FALSE(std::filesystem::exists(path.string() + "-wal"));
-    return;  // what it held is gone
+    return;  // its data are gone
   }
   SUBCASE("cut short") {
     store.copy_log();
@@ -440,12 +441,12 @@ TEST_CASE("a store that vanishes from under its writer is noticed, and saved fro
   CHECK(Reader(folder / "saved.db").jobs().size() == 2);
 }
 
-TEST_CASE("a header that power loss has left half copied is read from the log, and made whole") {
+TEST_CASE("a header that power loss left half copied is read from the log and repaired") {
   const TemporaryFolder folder;
   Store running = Store::create(folder / "a.db");
   running.open_log();
   running.add(plan({cooling(0.8)}));
-  // Pages that are added change the header, so that the log has it.
+  // New pages change the header, so that it is in the log.
   for (std::uint64_t seed = 2; seed < 60; ++seed) running.add(plan({cooling(0.8, seed)}));
   std::filesystem::copy_file(folder / "a.db", folder / "b.db");
   std::filesystem::copy_file(folder / "a.db-wal", folder / "b.db-wal");
@@ -456,7 +457,7 @@ TEST_CASE("a header that power loss has left half copied is read from the log, a
   CHECK(store.faults().empty());
 }
 
-TEST_CASE("a log beside a store that never had one is another file's") {
+TEST_CASE("a log beside a store that never had one belongs to another file") {
   const TemporaryFolder folder;
   Store::create(folder / "a.db").add(plan({cooling()}));
   Store running = Store::create(folder / "b.db");
@@ -480,7 +481,7 @@ TEST_CASE("a store with two names is not written") {
   CHECK(Reader(folder / "b.db").jobs().empty());
 }
 
-TEST_CASE("a link to a running store sees what is written, whatever folder it is in") {
+TEST_CASE("a link to a running store gives what is written, from any folder") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "live");
   std::filesystem::create_directory(folder / "links");
@@ -497,7 +498,7 @@ TEST_CASE("a link to a running store sees what is written, whatever folder it is
 TEST_CASE("readers leave nothing beside a store") {
   const TemporaryFolder folder;
   Store::create(folder / "a.db").add(plan({cooling()}));
-  plain(folder / "a.db").exec("PRAGMA journal_mode = WAL");  // as older programs left theirs
+  plain(folder / "a.db").exec("PRAGMA journal_mode = WAL");  // as older programs left their stores
   CHECK(Reader(folder / "a.db").jobs().size() == 2);
   int files = 0;
   for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(folder.path()))

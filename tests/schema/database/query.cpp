@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A user's SQL: typed values out, no writes in.
+// A user's SQL: it returns typed values and does not write.
 #include "schema/database/query.hpp"
 
 #include <doctest/doctest.h>
@@ -46,7 +46,7 @@ TEST_CASE("a query without rows still has columns") {
   CHECK_FALSE(query.next());
 }
 
-TEST_CASE("SQL that is wrong is refused with SQLite's reason") {
+TEST_CASE("wrong SQL is refused with SQLite's reason") {
   const Store store = Store::in_memory();
   CHECK(refusal_of(store, "SELEC 1") == "SQL: near \"SELEC\": syntax error");
   CHECK(refusal_of(store, "SELECT f FROM jobs") == "SQL: no such column: f");
@@ -56,7 +56,7 @@ TEST_CASE("SQL that is wrong is refused with SQLite's reason") {
   CHECK(refusal_of(store, "SELECT json('{')") == "SQL: malformed JSON");
 }
 
-TEST_CASE("a second statement is not silently left out") {
+TEST_CASE("a second statement is refused, not ignored") {
   const Store store = Store::in_memory();
   CHECK(refusal_of(store, "SELECT 1; DROP TABLE jobs") ==
         "SQL: one statement at a time; not expected:  DROP TABLE jobs");

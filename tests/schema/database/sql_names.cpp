@@ -7,7 +7,7 @@
 
 using namespace haff::schema;
 
-TEST_CASE("names are words outside of quotes, numbers and functions are none") {
+TEST_CASE("names are words outside quotes, but not numbers and functions") {
   CHECK(names_in("sqrt(a2) + 1e-3*roughness.beta AND law = 'tc'") ==
         std::vector<std::string>{"a2", "roughness.beta", "AND", "law"});
   CHECK(names_in("") == std::vector<std::string>{});
@@ -15,7 +15,7 @@ TEST_CASE("names are words outside of quotes, numbers and functions are none") {
   CHECK(names_in("'N") == std::vector<std::string>{});  // a quote that is not closed
 }
 
-TEST_CASE("names are replaced, all else stays as it is") {
+TEST_CASE("names are replaced, and the rest stays as it is") {
   const auto in_brackets = [](std::string_view name) { return "<" + std::string(name) + ">"; };
   CHECK(with_names("abs(n - .4) < 1E-4 AND 'n'", in_brackets) == "abs(<n> - .4) < 1E-4 <AND> 'n'");
 }

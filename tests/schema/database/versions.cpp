@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A store's schema is the program's own, to the letter, or it is not used.
+// The schema of a store must be exactly that of the program; otherwise the store is refused.
 #include "schema/database/versions.hpp"
 
 #include <doctest/doctest.h>

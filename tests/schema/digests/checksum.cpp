@@ -20,7 +20,7 @@ TEST_CASE("the checksum is FNV-1a with 64 bits") {
   CHECK(of("foobar") == 0x85944171f73967e8);
 }
 
-TEST_CASE("every single bit counts") {
+TEST_CASE("every bit changes the checksum") {
   auto state = bytes(64);
   const auto sum = checksum(state);
   for (std::size_t bit = 0; bit < 8 * state.size(); ++bit) {

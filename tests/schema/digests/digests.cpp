@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Digests of rows: kept by every write, and what does not match them is refused.
+// Digests of rows: every write keeps them up to date, and rows that do not match are refused.
 #include "schema/digests/digests.hpp"
 
 #include <doctest/doctest.h>
@@ -59,7 +59,7 @@ void vandalize(const std::filesystem::path& path, const std::string& sql) {
 
 }  // namespace
 
-TEST_CASE("digests: every write keeps them") {
+TEST_CASE("digests: every write keeps them up to date") {
   Working working;
   const auto all_match = [&] {
     const Reader reader(working.path);
@@ -91,7 +91,7 @@ TEST_CASE("digests: every write keeps them") {
   CHECK(working.store.samples(working.id()).size() == 5);
 }
 
-TEST_CASE("digests: they do not depend on how rows were divided into commits") {
+TEST_CASE("digests: they do not depend on the division of rows into commits") {
   Working working, other;
   working.store.commit(working.claim.lease, Working::commit(3, 9));
   for (int k = 3; k < 9; ++k) other.store.commit(other.claim.lease, Working::commit(k, k + 1));
@@ -100,7 +100,7 @@ TEST_CASE("digests: they do not depend on how rows were divided into commits") {
     CHECK(one.digests().stored(working.id(), part) == two.digests().stored(other.id(), part));
 }
 
-TEST_CASE("digests: a change of any table is seen, and refused by what reads it") {
+TEST_CASE("digests: a change in any table is seen, and its rows are refused") {
   const std::pair<const char*, Part> changes[] = {
       {"UPDATE jobs SET tau_max = 91", Part::jobs},
       {"UPDATE jobs SET host = 'x'", Part::jobs},
@@ -137,7 +137,7 @@ TEST_CASE("digests: a change of any table is seen, and refused by what reads it"
   }
 }
 
-TEST_CASE("digests: small tables are digested as a whole") {
+TEST_CASE("digests: small tables have one digest") {
   Working working;
   vandalize(working.path, "UPDATE campaign SET shard = 'mine'");
   CHECK(Reader(working.path).wrong_tables() == std::vector<std::string>{"campaign"});
@@ -146,7 +146,7 @@ TEST_CASE("digests: small tables are digested as a whole") {
   CHECK(Reader(working.path).wrong_tables().empty());
 }
 
-TEST_CASE("digests: a job whose row has changed is not worked on, and a flipped bit turned back") {
+TEST_CASE("digests: a job whose row has changed is not run, and a flipped bit is repaired") {
   const TemporaryFolder folder;
   Store store = Store::create(folder / "a.db");
   store.add(plan({cooling()}));
@@ -171,7 +171,7 @@ TEST_CASE("digests: a job whose row has changed is not worked on, and a flipped 
   CHECK(store.claim(me, "test"));
 }
 
-TEST_CASE("digests: what was changed without a look is an error of this program") {
+TEST_CASE("digests: changing a row without a check is a logic error") {
   Working working;
   Database database(working.path, Access::write);
   CHECK_THROWS_AS(
@@ -179,7 +179,7 @@ TEST_CASE("digests: what was changed without a look is an error of this program"
       std::logic_error);
 }
 
-TEST_CASE("digests: a merge carries them along, and refuses what does not match") {
+TEST_CASE("digests: a merge takes them over, and refuses rows that do not match") {
   Working home, shard;
   const Reader other(shard.path);
   shard.store.commit(shard.claim.lease, Working::commit(3, 6));

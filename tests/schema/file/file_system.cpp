@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What SQLite asks of the disk, and what becomes of the disk's answers.
+// The requests of SQLite to the disk, and the effects of the disk's answers.
 #include "schema/file/file_system.hpp"
 
 #include <doctest/doctest.h>
@@ -37,7 +37,7 @@ std::string crafted_journal(const std::string& victim, std::uint32_t pages) {
 
 }  // namespace
 
-TEST_CASE("a journal that names a user's file does not get it deleted, nor even opened") {
+TEST_CASE("a journal that names a user's file does not cause it to be deleted or opened") {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";
   const auto victim = folder / "thesis.tex";
@@ -68,11 +68,11 @@ TEST_CASE("a journal that names a user's file does not get it deleted, nor even 
 }
 
 TEST_CASE(
-    "a plan that power loss cut off leaves an unfinished store, and the next makes it whole") {
+    "a plan cut off by power loss leaves an unfinished store, which the next plan completes") {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";
   Store::create(path);
-  // The first page is as it was before the transaction: nothing. SQLite undoes all of it.
+  // The first page is empty, as it was before the transaction: SQLite undoes all of it.
   const std::string magic("\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8);
   std::string header = magic + big_endian(0) + big_endian(12345) + big_endian(0) + big_endian(512) +
                        big_endian(4096);

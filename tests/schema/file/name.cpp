@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The name of a store is a path to one file, whatever it looks like.
+// The name of a store is the path of a file, also where SQLite would take it for something else.
 #include "schema/file/name.hpp"
 
 #include <doctest/doctest.h>
@@ -45,7 +45,7 @@ std::string refusal_of(const std::filesystem::path& name) {
 
 }  // namespace
 
-TEST_CASE("names that SQLite gives a meaning are paths to files") {
+TEST_CASE("names with a special meaning in SQLite are paths of files") {
   const Here here;
   for (const char* name : {"file:c.db", "file:c.db?mode=memory",
                            ":memory:", "file::memory:", "a#b?c%20.db", "c d.db"}) {
@@ -66,7 +66,7 @@ TEST_CASE("two slashes at the beginning are one") {
   CHECK(std::filesystem::exists(here / "c.db"));
 }
 
-TEST_CASE("what can be no store is refused by its name, and nothing is left behind") {
+TEST_CASE("a path that cannot be a store is refused by name, and nothing is left behind") {
   const Here here;
   std::filesystem::create_directory("folder");
   REQUIRE(mkfifo("pipe", 0600) == 0);

@@ -56,7 +56,7 @@ class Holder {
 
 }  // namespace
 
-TEST_CASE("words: a process that writes is in the way, others are where none writes") {
+TEST_CASE("words: a busy store names the process that writes, or else those that read") {
   const haff::TemporaryFolder folder;
   const auto store = folder.path() / "c.db";
   std::ofstream(store) << std::string(200, ' ');

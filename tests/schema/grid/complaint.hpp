@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Grids of the tests of schema/grid, and what is said of them.
+// The grids of the tests of schema/grid, and the messages about them.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -28,14 +28,14 @@ inline std::string with(const std::string& key, const std::string& value) {
   return "{" + text + '"' + key + "\": " + value + "}";
 }
 
-// The same with a target.
+// A complete grid with this target.
 inline std::string with_target(const std::string& target,
                                const std::string& rest = R"("seeds": 5)") {
   return R"({"e": 0.8, "n": 0.4, "N": 1000, "tau_max": 90, )" + rest + R"(, "target": )" + target +
          "}";
 }
 
-// What is wrong with it.
+// The message about what is wrong with a grid.
 inline std::string complaint(const std::string& text) {
   try {
     parse(text);

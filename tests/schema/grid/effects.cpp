@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Effects in a grid: read, refused, expanded to one canonical text each.
+// Effects in a grid: they are read, refused, or expanded to one canonical text each.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -35,7 +35,7 @@ using Texts = std::vector<Effects>;
 
 }  // namespace
 
-TEST_CASE("effects: none, or the default by its name, is none") {
+TEST_CASE("effects: no effects and the default law give the same text") {
   CHECK(effects("{}") == Texts{"{}"});
   CHECK(effects(R"({"restitution": {"law": "constant"}})") == Texts{"{}"});
 }
@@ -48,7 +48,7 @@ TEST_CASE("effects: a law has one text, however its numbers are written") {
         effects(R"({"restitution": {"law": "threshold", "speed": 1.0}})"));
 }
 
-TEST_CASE("effects: lists expand, of laws and within them") {
+TEST_CASE("effects: lists of laws expand, and lists within laws") {
   CHECK(effects(R"({"restitution": {"law": "tc", "t_c": [1e-4, 1e-3]}})") ==
         Texts{R"({"restitution":{"law":"tc","t_c":0.0001}})",
               R"({"restitution":{"law":"tc","t_c":0.001}})"});
@@ -56,7 +56,7 @@ TEST_CASE("effects: lists expand, of laws and within them") {
         Texts{"{}", R"({"restitution":{"law":"threshold","speed":0.5}})"});
 }
 
-TEST_CASE("effects: lists expand, of any effect and of effects as a whole") {
+TEST_CASE("effects: lists of an effect expand, and lists of sets of effects") {
   CHECK(effects(R"([{}, {"shuffle": {"every": 1}}])") ==
         Texts{"{}", R"({"shuffle":{"every":1.0}})"});
   CHECK(effects(R"({"shuffle": [{"every": 1}, {"every": 2}]})") ==
@@ -70,7 +70,7 @@ TEST_CASE("effects: lists expand, of any effect and of effects as a whole") {
   CHECK(effects(R"([{}, {"restitution": {"law": "constant"}}])") == Texts{"{}"});
 }
 
-TEST_CASE("effects: what is wrong within a list is named with its place") {
+TEST_CASE("effects: errors within a list are named with their place") {
   CHECK(complaint("[]").find("g.json: /effects: [] is not accepted") == 0);
   CHECK(complaint(R"([{}, {"shufle": {"every": 1}}])") ==
         "g.json: /effects/1/shufle: unknown key; did you mean \"shuffle\"?");
@@ -90,7 +90,7 @@ TEST_CASE("effects: what is wrong within a list is named with its place") {
             .find("g.json: /e: 0.8 does not go together") == 0);
 }
 
-TEST_CASE("effects: what is wrong is named") {
+TEST_CASE("effects: errors are named") {
   CHECK(complaint(R"({"restituton": {"law": "tc", "t_c": 1e-4}})") ==
         "g.json: /effects/restituton: unknown key; did you mean \"restitution\"?");
   CHECK(complaint(R"({"restitution": {"law": "treshold", "speed": 1}})") ==
@@ -111,7 +111,7 @@ TEST_CASE("effects: what is wrong is named") {
         "to 1e6");
 }
 
-TEST_CASE("effects: a shuffle, swept") {
+TEST_CASE("effects: a list of shuffles") {
   CHECK(effects(R"({"shuffle": {"every": [1, 5]}})") ==
         Texts{R"({"shuffle":{"every":1.0}})", R"({"shuffle":{"every":5.0}})"});
   CHECK(complaint(R"({"shuffle": {}})") ==
@@ -142,7 +142,7 @@ TEST_CASE("effects: viscoelastic spheres have no e") {
         "dissipation [(sqrt(E(0)/m))^(-1/5)], from 1e-100 to below 0.67, or a list of them");
 }
 
-TEST_CASE("effects: combinations without sense are refused by name") {
+TEST_CASE("effects: combinations that make no sense are refused by name") {
   CHECK_THROWS_WITH_AS(
       parse_grid(R"({"e": [0.9, 1], "n": 0.4, "N": 1000, "seeds": 1, "tau_max": 90,
                      "effects": {"thermostat": {"rate": 1}}})",
@@ -171,7 +171,7 @@ TEST_CASE("effects: a thermostat may heat elastic spheres where roughness loses 
         GridError);
 }
 
-TEST_CASE("effects: what compares with Haff's law is no target where they change it") {
+TEST_CASE("effects: targets relative to Haff's law are refused where effects change the law") {
   const auto with = [](const std::string& asked, const std::string& target) {
     return complaint(asked + R"(, "target": )" + target);
   };
@@ -197,7 +197,7 @@ TEST_CASE("effects: Haff's law holds for gases with an e and without a thermosta
   CHECK_FALSE(cools_by_haff({.e = std::nullopt}));
 }
 
-TEST_CASE("effects: part of a job's identity, not of its equilibration's") {
+TEST_CASE("effects: they are part of a job's identity, but not of its equilibration's") {
   Job plain{.e = 0.8, .n = 0.4, .particles = 1000, .seed = 1};
   Job softened = plain;
   softened.effects = R"({"restitution":{"law":"tc","t_c":0.0001}})";
@@ -205,7 +205,7 @@ TEST_CASE("effects: part of a job's identity, not of its equilibration's") {
   CHECK(identity(equilibration_of(plain)) == identity(equilibration_of(softened)));
 }
 
-TEST_CASE("effects: roughness and mixtures, swept") {
+TEST_CASE("effects: lists of roughness and mixtures") {
   CHECK(effects(R"({"roughness": {"beta": [-0.5, 0.5], "q": 0.4}})") ==
         Texts{R"({"roughness":{"beta":-0.5,"q":0.4}})", R"({"roughness":{"beta":0.5,"q":0.4}})"});
   CHECK(
@@ -214,7 +214,7 @@ TEST_CASE("effects: roughness and mixtures, swept") {
             R"({"mixture":{"diameter_ratio":1.0,"fraction":0.5,"mass_ratio":10.0}})"});
 }
 
-TEST_CASE("effects: what is wrong with roughness or a mixture is named") {
+TEST_CASE("effects: errors in roughness or a mixture are named") {
   CHECK(complaint(R"({"roughness": {"beta": 1.5, "q": 0.4}})") ==
         "g.json: /effects/roughness/beta: 1.5 is not accepted; expected a tangential restitution "
         "coefficient, from -1 (smooth) to 1 (perfectly rough), or a list of them");
@@ -227,7 +227,7 @@ TEST_CASE("effects: what is wrong with roughness or a mixture is named") {
         "them");
 }
 
-TEST_CASE("effects: a mixture refuses what has no meaning for it, by name") {
+TEST_CASE("effects: effects and observables without meaning for a mixture are refused by name") {
   const std::string mixture =
       R"("mixture": {"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": 0.1})";
   CHECK(complaint("{" + mixture + R"(, "shuffle": {"every": 1}})") ==
@@ -240,7 +240,7 @@ TEST_CASE("effects: a mixture refuses what has no meaning for it, by name") {
         "expected at least one of each");
 }
 
-TEST_CASE("effects: whatever physics allows goes together") {
+TEST_CASE("effects: all combinations that physics allows are accepted") {
   const std::string mixture =
       R"("mixture": {"fraction": 0.5, "diameter_ratio": 0.5, "mass_ratio": 0.1})";
   const std::string roughness = R"("roughness": {"beta": 0.5, "q": 0.5})";
@@ -262,7 +262,7 @@ TEST_CASE("effects: whatever physics allows goes together") {
     }
 }
 
-TEST_CASE("effects: a mixture equilibrates as one, rough spheres as smooth ones") {
+TEST_CASE("effects: a mixture equilibrates as a mixture, rough spheres as smooth ones") {
   Job job{.e = 0.8, .n = 0.4, .particles = 1000, .seed = 1};
   job.effects = R"({"mixture":{"diameter_ratio":1.0,"fraction":0.5,"mass_ratio":0.1}})";
   CHECK(equilibration_of(job).effects == job.effects);
@@ -289,7 +289,7 @@ TEST_CASE("effects: one text is parsed once, into numbers by name") {
   CHECK(Effects().none());
 }
 
-TEST_CASE("effects: what is no object of objects of numbers is refused by name") {
+TEST_CASE("effects: anything but an object of objects of numbers is refused by name") {
   const auto complaint_about = [](const char* json) -> std::string {
     try {
       return Effects(json).text();

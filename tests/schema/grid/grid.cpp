@@ -45,7 +45,7 @@ TEST_CASE("a flat object is one grid with the schema's defaults") {
   CHECK(only.observables == std::vector<std::string>{"laguerre", "temperature"});
 }
 
-TEST_CASE("a grid's own keys win over those beside it") {
+TEST_CASE("a grid's own keys take precedence over those beside it") {
   const Grid grid = parse(R"({"e": 0.8, "n": 0.4, "N": 100, "seeds": 1, "tau_max": 90,
                               "grids": [{}, {"e": [0.9], "seeds": [7], "tau_max": 5}]})");
   REQUIRE(grid.grids.size() == 2);
@@ -66,7 +66,7 @@ TEST_CASE("the largest seed keeps all its digits") {
   CHECK(grid.grids[0].seeds == std::vector<std::uint64_t>{0, 9007199254740991});
 }
 
-TEST_CASE("a scalar stands for a list of one") {
+TEST_CASE("a scalar stands for a list of one value") {
   const Grid grid = parse(with("observables", "\"temperature\""));
   CHECK(grid.grids[0].observables == std::vector<std::string>{"temperature"});
   CHECK(parse(with("sample_every", "2")).grids[0].sample_every == std::vector{2.0});
@@ -79,7 +79,7 @@ TEST_CASE("tau_max is matched to e by value, in the order of e") {
   CHECK(grid.grids[0].tau_max == std::vector{3.0, 1.0, 2.0});
 }
 
-TEST_CASE("a tau_max map beside several grids serves each with its own e") {
+TEST_CASE("a tau_max map beside several grids gives each grid its own e") {
   const Grid grid = parse(R"({"n": 0.4, "N": 100, "seeds": 1, "tau_max": {"0.8": 1, "0.9": 2},
                               "grids": [{"e": 0.8}, {"e": 0.9}]})");
   CHECK(grid.grids[0].tau_max == std::vector{1.0});
@@ -90,7 +90,7 @@ TEST_CASE("negative zero is zero") {
   CHECK_FALSE(std::signbit(parse(with("e", "-0.0")).grids[0].e[0]));
 }
 
-TEST_CASE("a grid may be of disks: d is 3 unless it says 2, and disks have limits of their own") {
+TEST_CASE("a grid of disks has d = 2, and limits of its own") {
   CHECK(parse(with("e", "0.8")).grids[0].d == std::vector{3});
   CHECK(parse(with("d", "2")).grids[0].d == std::vector{2});
   CHECK(parse(with("d", "[2, 3]")).grids[0].d == std::vector{2, 3});
@@ -111,7 +111,7 @@ TEST_CASE("a grid may be of disks: d is 3 unless it says 2, and disks have limit
       "2 sigma, N >= 4");
 }
 
-// ---- numbers as people write them -------------------------------------------------------------
+// ---- the notation of numbers ------------------------------------------------------------------
 
 TEST_CASE("a number is read as the shortest decimal within 1e-12 of it") {
   CHECK(parse(with("e", "0.8500000000000001")).grids[0].e == std::vector{0.85});
@@ -139,11 +139,11 @@ TEST_CASE("more jobs than a plan can hold are refused before they are made") {
         std::string::npos);
 }
 
-TEST_CASE("a list of 10^5 seeds is read in time that does not grow with its square") {
+TEST_CASE("the time to read a list of 10^5 seeds does not grow with its square") {
   std::string seeds = "[0";
   for (int k = 1; k < 100'000; ++k) seeds += "," + std::to_string(k);
   const auto begin = std::chrono::steady_clock::now();
   CHECK(parse(with("seeds", seeds + "]")).grids[0].seeds.size() == 100'000);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  CHECK(took.count() < 10);  // 0.5 s on one core at 3 GHz; a quadratic one took minutes
+  CHECK(took.count() < 10);  // 0.5 s on one core at 3 GHz; quadratic time took minutes
 }

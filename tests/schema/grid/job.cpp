@@ -18,7 +18,7 @@ TEST_CASE("the identity is the physics as canonical JSON") {
         R"("sample_every":1,"seed":1})");
 }
 
-TEST_CASE("every part of the physics makes another job") {
+TEST_CASE("a change in any part of the physics makes another job") {
   const Job job = cooling();
   std::vector<Job> others(10, job);
   others[0].kind = Kind::equilibration;
@@ -34,7 +34,7 @@ TEST_CASE("every part of the physics makes another job") {
   for (const Job& other : others) CHECK(identity(other) != identity(job));
 }
 
-TEST_CASE("profiles and fields are physics of the jobs that take them") {
+TEST_CASE("profiles and fields are part of the physics of jobs that take them") {
   Job job = cooling();
   job.profiles_every = 10;
   job.fields_at = {20, 60.5};
@@ -46,7 +46,7 @@ TEST_CASE("profiles and fields are physics of the jobs that take them") {
   CHECK(identity(equilibration_of(job)) == identity(equilibration_of(cooling())));
 }
 
-TEST_CASE("the order of observables and the sign of zero are no physics") {
+TEST_CASE("the order of observables and the sign of zero are not part of the physics") {
   Job one = cooling(0.0), other = cooling(-0.0);
   one.observables = {"temperature", "laguerre"};
   other.observables = {"laguerre", "temperature"};
@@ -86,10 +86,10 @@ TEST_CASE("moments of samples and snapshots are part of a job where it has them"
   CHECK(identity(job) == without);
 }
 
-TEST_CASE("which samples are at equal intervals") {
+TEST_CASE("samples at equal intervals are told from others") {
   Job job = cooling();
   job.sample_every = 0.1;
-  CHECK(is_at_interval(job, 0.35));  // nothing else is taken
+  CHECK(is_at_interval(job, 0.35));  // the job has no other samples
   job.sample_at.tau.listed = {0.35};
   CHECK(is_at_interval(job, 3 * 0.1));
   CHECK(is_at_interval(job, 0));

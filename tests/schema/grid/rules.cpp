@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A grid's JSON against its schema: one message, with what was expected.
+// The JSON of a grid is checked against its schema: one message says what was expected.
 #include "schema/grid/rules.hpp"
 
 #include <doctest/doctest.h>
@@ -158,7 +158,7 @@ TEST_CASE("a value of the wrong type or out of range is shown with what was expe
                   "g.json: /observables/0: 3 is not accepted; expected the name of an observable");
 }
 
-TEST_CASE("a long value is cut") {
+TEST_CASE("a long value is cut in the message") {
   check_complaint(
       with("name", "[" + std::string(200, ' ') +
                        R"("the quick brown fox jumps over the lazy dog, and once more over it"])"),
@@ -166,7 +166,7 @@ TEST_CASE("a long value is cut") {
       "accepted; expected a name, as text");
 }
 
-TEST_CASE("no number of a grid is beyond what a run can do with it") {
+TEST_CASE("numbers too large or too small for a run are refused") {
   for (const auto& each : std::vector<std::pair<std::string, std::string>>{
            {"tau_max", "1e12"},
            {"tau_max", "1e300"},

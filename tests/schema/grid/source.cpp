@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A grid as a file and as JSON: what cannot be read is shown where it stands.
+// A grid as a file and as JSON: errors are shown with their place.
 #include "schema/grid/source.hpp"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@
 
 using namespace haff::schema;
 
-TEST_CASE("a file is read, and named when it cannot be") {
+TEST_CASE("a file is read, and named when it cannot be read") {
   const TemporaryFolder folder;
   std::ofstream(folder / "g.json") << with("e", "0.9");
   CHECK(read_grid(folder / "g.json", machine).grids[0].e == std::vector{0.9});
@@ -26,7 +26,7 @@ TEST_CASE("a file is read, and named when it cannot be") {
                        GridError);
 }
 
-TEST_CASE("what is not JSON is shown by line and column") {
+TEST_CASE("an error in JSON is shown with its line and column") {
   check_complaint("",
                   "g.json: is not JSON: line 1, column 1: syntax error while parsing value - "
                   "unexpected end of input; expected '[', '{', or a literal");
@@ -47,7 +47,7 @@ TEST_CASE("what is not JSON is shown by line and column") {
                   "invalid string: ill-formed UTF-8 byte; last read: '\"\xff'");
 }
 
-TEST_CASE("a key given twice is found where it is") {
+TEST_CASE("a repeated key is named with its place") {
   check_complaint(R"({"e": 0.8, "e": 0.9})",
                   "g.json: /e: the key is there twice; expected each key once");
   check_complaint(R"({"grids": [{"e": 0.8}, {"N": 10, "N": 10}]})",
@@ -56,7 +56,7 @@ TEST_CASE("a key given twice is found where it is") {
                   "g.json: /tau_max/0.8: the key is there twice; expected each key once");
 }
 
-TEST_CASE("numbers that no double holds are found where they are") {
+TEST_CASE("a number that no double holds is named with its place") {
   check_complaint(with("tau_max", "1e999"),
                   "g.json: /tau_max: 1e999 is too large; expected a finite number");
   check_complaint(R"({"grids": [{"e": [0.8, -1e999]}]})",
@@ -80,7 +80,7 @@ TEST_CASE("$schema and keys that begin with _ are for editors and notes") {
                   "\"seeds\", \"snapshots_at\", \"start\", \"target\", \"tau_max\"");
 }
 
-TEST_CASE("a number too small for a double is named so") {
+TEST_CASE("a number too small for a double is refused") {
   check_complaint(with("n", "1e-400"),
                   "g.json: /n: 1e-400 is too small; expected 0 or a number that a double holds");
   CHECK(parse(with("e", "0e-400")).grids[0].e == std::vector{0.0});

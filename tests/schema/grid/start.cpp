@@ -20,7 +20,7 @@ std::vector<AskedStart> starts(const std::string& value) {
 
 }  // namespace
 
-TEST_CASE("start: by its name, with parameters, or several") {
+TEST_CASE("start: a name, a name with parameters, or a list") {
   CHECK(parse(with("seeds", "1")).grids[0].starts.size() == 1);
   CHECK(starts(R"("uniform")")[0].start.is_uniform());
   CHECK(starts(R"("crystal")")[0].start == Start{.kind = Start::Kind::crystal});
@@ -36,7 +36,7 @@ TEST_CASE("start: by its name, with parameters, or several") {
   CHECK(file.place == "g.json: /start/1/file");
 }
 
-TEST_CASE("start: a text names it, and is read back") {
+TEST_CASE("start: the text of a start is read back") {
   for (const char* text : {R"("crystal")", R"({"shear wave":{"amplitude":0.25,"waves":2}})",
                            R"({"two temperatures":{"ratio":4}})", R"({"file":"0123456789abcdef"})"})
     CHECK(start_text(start_in(text)) == text);
@@ -46,7 +46,7 @@ TEST_CASE("start: a text names it, and is read back") {
     CHECK_THROWS_AS(start_in(text), std::exception);
 }
 
-TEST_CASE("start: a part of what a job is, and of its equilibration if there is nothing to run") {
+TEST_CASE("start: it is part of a job's identity, and of its equilibration's if nothing is run") {
   Job job = cooling();
   const std::string uniform = identity(job);
   job.start = {.kind = Start::Kind::shear_wave, .amplitude = 0.5, .waves = 1};
@@ -67,7 +67,7 @@ TEST_CASE("start: a part of what a job is, and of its equilibration if there is 
   CHECK(store.job(store.find(job).value()).job.start == job.start);
 }
 
-TEST_CASE("start: a given state makes its equilibration done, and is put back when planned again") {
+TEST_CASE("start: a given state counts as an equilibration, and is put back by another plan") {
   Job job = cooling();
   job.start = {.kind = Start::Kind::file, .digest = "0123456789abcdef"};
   job.equilibrate = 0;
@@ -89,7 +89,7 @@ TEST_CASE("start: a given state makes its equilibration done, and is put back wh
   CHECK_FALSE(store.job(start).starts_over);
 }
 
-TEST_CASE("start: what is none is refused") {
+TEST_CASE("start: bad input is refused") {
   check_complaint(with("start", R"("sheer wave")"),
                   "g.json: /start: \"sheer wave\" is not accepted; did you mean \"shear wave\"?");
   check_complaint(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Targets of a grid: read with their windows, or refused.
+// Targets of a grid are read with their windows, or refused.
 #include "schema/grid/target.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a store is defined by, as one text that commands compare.
+// The definition of a store, as one text that commands compare.
 #include "schema/sql/definition.hpp"
 
 #include <doctest/doctest.h>
@@ -9,7 +9,7 @@
 
 using namespace haff::schema;
 
-TEST_CASE("the definition that was found when the program was built is what the scripts make") {
+TEST_CASE("the definition found at build time is the one that the scripts make") {
   CHECK(newest_definition() == in_one_text(definition_made_by(scripts())));
 }
 

@@ -16,7 +16,7 @@ using namespace haff::schema;
 
 namespace {
 
-// A gas with two realizations, of one sample each beside the first.
+// A gas with two realizations, each with one sample beside the first one.
 Store two_realizations() {
   auto store = Store::in_memory();
   store.add(plan({cooling(0.8, 1), cooling(0.8, 2)}));
@@ -48,7 +48,7 @@ std::vector<std::string> rows(SQLite::Database& file, const std::string& sql) {
 
 }  // namespace
 
-TEST_CASE("averaged tables: with a table that was computed") {
+TEST_CASE("averaged tables: a computed table is added") {
   const Store store = two_realizations();
   const auto content = averaged_tables(
       store, {{"theory", {"name", "x", "value"}, {{Value("a2"), Value(0.5), Value(Null{})}}}});
@@ -62,7 +62,7 @@ TEST_CASE("averaged tables: with a table that was computed") {
         std::vector<std::string>{"a2|0.5|1|"});
 }
 
-TEST_CASE("averaged tables: a file that SQLite reads, with the rows of the views") {
+TEST_CASE("averaged tables: the file is one that SQLite reads, with the rows of the views") {
   const Store store = two_realizations();
   const std::vector<std::byte> content = averaged_tables(store);
   const TemporaryFolder folder;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What is committed, what is refused, and what a crash or a full disk leaves.
+// Commits: what is stored, what is refused, and what remains after a crash or a full disk.
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -47,7 +47,7 @@ TEST_CASE("the last sample before a checkpoint is found") {
   CHECK(working.store.last_sample(job_id, 90) == sample_at(2));
 }
 
-TEST_CASE("a sample that is not finite is refused with all it came with") {
+TEST_CASE("a sample that is not finite is refused with all of its commit") {
   Working working;
   const Lease lease = working.claim.lease;
   for (const double broken : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
@@ -73,14 +73,14 @@ TEST_CASE("finishing stores the results and ends the lease") {
   CHECK_THROWS_AS(working.store.commit(lease, {}), LeaseLost);
 }
 
-TEST_CASE("a result that was not reached is NULL, and no row is no result") {
+TEST_CASE("a result that was not reached is NULL, while a missing row is no result") {
   Working working;
   CHECK_FALSE(working.store.results(working.claim.lease.job_id));
   complete(working.store, working.claim, {}, Results{});
   CHECK(working.store.results(working.claim.lease.job_id) == Results{});
 }
 
-TEST_CASE("a writer killed at any moment leaves samples and checkpoint of one commit") {
+TEST_CASE("a writer killed at any moment leaves the samples and the checkpoint of one commit") {
   const TemporaryFolder folder;
   const auto path = folder / "a.db";
   Store::create(path).add(plan({cooling()}));
@@ -95,7 +95,7 @@ TEST_CASE("a writer killed at any moment leaves samples and checkpoint of one co
         store.commit(claim.lease, {.samples = {sample_at(tau)},
                                    .checkpoint = Checkpoint{.tau = tau, .state = state}});
     }
-    // The later ones are killed some time after a commit, however slow the machine is.
+    // The later writers are killed some time after a commit, however slow the machine is.
     if (kill_after >= 10) {
       const auto before = Reader(path).last_sample(1, 1e9);
       const auto begin = std::chrono::steady_clock::now();
@@ -126,7 +126,7 @@ TEST_CASE("a writer killed at any moment leaves samples and checkpoint of one co
   CHECK(Reader(path).checkpoint(1));
 }
 
-TEST_CASE("a disk that takes no more undoes the commit, says so, and leaves the store sound") {
+TEST_CASE("a full disk undoes the commit, is reported, and leaves the store sound") {
   const TemporaryFolder folder;
   Working working(Store::create(folder / "a.db"));
   const Lease lease = working.claim.lease;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The views that average over realizations, against a direct computation.
+// The views that average over realizations, compared with a direct computation.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct Realization {
   std::optional<double> tau_c = {};
 };
 
-// Numbers without order, the same ones every time.
+// Irregular numbers, the same every time.
 double noise(std::uint64_t seed, std::uint64_t k) {
   std::uint64_t x = (seed * 1000 + k + 1) * 0x9e3779b97f4a7c15;
   x ^= x >> 31;
@@ -29,8 +29,8 @@ double noise(std::uint64_t seed, std::uint64_t k) {
   return static_cast<double>(x >> 11) * 0x1p-53 - 0.5;
 }
 
-// A series of a gas whose temperature is near `scale`. At one tau it has the same numbers, however
-// often it is sampled.
+// A series of a gas whose temperature is near `scale`. Its numbers at a given tau do not depend on
+// how often it is sampled.
 Realization series(const Job& job, int length, double scale = 1) {
   Realization made{.job = job, .samples = {}};
   for (int k = 0; k <= length; ++k) {
@@ -56,7 +56,7 @@ Realization series(const Job& job, int length, double scale = 1) {
   return made;
 }
 
-// A store in which these jobs were planned and finished in the order given.
+// A store in which these jobs were planned and finished in the given order.
 Store store_of(const std::vector<Realization>& realizations) {
   Store store = Store::in_memory();
   for (const Realization& one : realizations) store.add(plan({one.job}));
@@ -91,7 +91,7 @@ double standard_error(const std::vector<double>& x) {
   return static_cast<double>(std::sqrt(sum / (R - 1) / R));
 }
 
-// Rounding of a sum of a few numbers in double.
+// The rounding error of a sum of a few doubles.
 constexpr double rounding = 1e-14;
 
 }  // namespace
@@ -178,7 +178,7 @@ TEST_CASE("averages do not depend on the order of jobs, to the last bit") {
   }
 }
 
-TEST_CASE("every part of the physics but the seed makes a series of its own") {
+TEST_CASE("a change in any part of the physics but the seed makes another series") {
   std::vector<Job> jobs(9, cooling());
   jobs[1].e = 0.9;
   jobs[2].n = 0.5;
@@ -203,7 +203,8 @@ TEST_CASE("every part of the physics but the seed makes a series of its own") {
   }
 }
 
-TEST_CASE("a realization that was run again to observe more is averaged once, with all it has") {
+TEST_CASE(
+    "a realization that was run again with more observables is averaged once, with all of them") {
   Realization first = series(cooling(0.8, 1), 2), second = series(cooling(0.8, 1), 1);
   second.job.observables = {"laguerre", "structure", "temperature"};
   for (Sample& sample : first.samples) sample.a2 = std::nullopt;
@@ -219,7 +220,7 @@ TEST_CASE("a realization that was run again to observe more is averaged once, wi
         std::vector<Row>{{std::int64_t{2}, std::int64_t{1}, 58.0}});
 }
 
-TEST_CASE("a mean of one e is looked for by an index, and reads no other gas") {
+TEST_CASE("a mean for one e uses an index and reads no other gas") {
   const Store store = store_of({series(cooling(0.8, 1), 1), series(cooling(0.9, 1), 1)});
   std::string plan;
   for (const Row& row : rows(store, "EXPLAIN QUERY PLAN SELECT * FROM mean_series WHERE e = 0.9"))
@@ -267,7 +268,7 @@ TEST_CASE("tau_c is averaged over the realizations that reached it") {
         std::vector<Row>{{std::int64_t{0}, Null{}, Null{}}});
 }
 
-TEST_CASE("60 jobs of 1000 samples are averaged while one waits") {
+TEST_CASE("60 jobs of 1000 samples are averaged within seconds") {
   std::vector<Realization> realizations;
   for (const double e : {0.75, 0.8, 0.85, 0.9, 0.95})
     for (std::uint64_t seed = 1; seed <= 12; ++seed)
@@ -280,7 +281,7 @@ TEST_CASE("60 jobs of 1000 samples are averaged while one waits") {
   CHECK(seconds.count() < 10);  // 1.0 s when nothing else runs
 }
 
-TEST_CASE("a gas without e is stored as it is, and averaged") {
+TEST_CASE("a gas without e is stored with NULL for e, and averaged") {
   Store store = Store::in_memory();
   std::vector<Job> jobs{cooling(0.8, 1), cooling(0.8, 2)};
   for (Job& job : jobs) {

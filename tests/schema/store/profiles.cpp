@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Profiles and fields: written with the samples beside them, never changed, read back with every
-// bit, averaged over realizations.
+// Profiles and fields are written with the samples beside them, never changed, read back bit for
+// bit, and averaged over realizations.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <doctest/doctest.h>
 
@@ -29,7 +29,7 @@ Field velocity() {
   return field;
 }
 
-// A store in which these jobs are being worked on.
+// A store in which these jobs are being run.
 struct Working {
   Store store = Store::in_memory();
   std::vector<Claim> claims;
@@ -43,7 +43,7 @@ struct Working {
 
 }  // namespace
 
-TEST_CASE("a job keeps when its profiles and fields are taken") {
+TEST_CASE("a job keeps the times of its profiles and fields") {
   const Working working({job_with_profiles()});
   CHECK(identity(working.claims.at(0).job) == identity(job_with_profiles()));
   CHECK(working.store.job(working.claims[0].lease.job_id).job.profiles_every == 10.0);
@@ -108,7 +108,7 @@ TEST_CASE("profiles are averaged point by point over realizations") {
   CHECK_FALSE(means.next());
 }
 
-TEST_CASE("when profiles are taken makes no other gas: realizations are averaged together") {
+TEST_CASE("realizations with profiles at different times are averaged together") {
   Job often = job_with_profiles(2);
   often.profiles_every = 5;
   Working working({job_with_profiles(1), often});
@@ -124,7 +124,7 @@ TEST_CASE("when profiles are taken makes no other gas: realizations are averaged
   }
 }
 
-TEST_CASE("a field that does not hold what its cells say is damage") {
+TEST_CASE("a field whose data do not match its cells is damaged") {
   const TemporaryFolder folder;
   Store store = Store::create(folder / "a.db");
   store.add(plan({job_with_profiles()}));
@@ -134,7 +134,7 @@ TEST_CASE("a field that does not hold what its cells say is damage") {
   CHECK(store.field(claim.lease.job_id, "velocity", 10).has_value());
   CHECK(store.fields(claim.lease.job_id).size() == 1);
   SQLite::Database vandal((folder / "a.db").string(), SQLite::OPEN_READWRITE);
-  vandal.exec("UPDATE digests SET fields = NULL");  // which would notice any change
+  vandal.exec("UPDATE digests SET fields = NULL");  // the digests would notice any change
   for (const char* change : {"cells = 1", "cells = 68", "cells = 4611686018427387904",
                              "components = 1", "data = x'0000000000000000'", "box = -1"}) {
     CAPTURE(change);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What is stored is read back whole, or reported as damaged: never used in between.
+// Data are read back whole, or reported as damaged: damaged data are never used.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -13,7 +13,7 @@ using namespace haff::schema;
 
 namespace {
 
-// A store with one checkpoint of two chunks, and a vandal's connection to it.
+// A store with one checkpoint of two chunks, and a connection that damages it.
 struct Vandal {
   TemporaryFolder folder;
   Store store = Store::create(folder / "a.db");
@@ -71,7 +71,7 @@ TEST_CASE("only the newest checkpoint is kept") {
   CHECK(infos[0].bytes == 10);
 }
 
-TEST_CASE("a job without a checkpoint has none") {
+TEST_CASE("no checkpoint is found for a job without one") {
   const Vandal vandal;
   CHECK_FALSE(vandal.store.checkpoint(vandal.job_id + 1));
 }
@@ -141,14 +141,16 @@ TEST_CASE("a damaged file is reported, not read") {
   CHECK_FALSE(reader.faults().empty());
 }
 
-TEST_CASE("a job that is not there is named") {
+TEST_CASE("a job that does not exist is named") {
   const Vandal vandal;
   CHECK_THROWS_WITH_AS(vandal.store.job(99),
                        (vandal.store.path().string() + ": there is no job 99").c_str(), StoreError);
 }
 
-// Text that could reach a terminal, a figure or a page, numbers that libraries would stumble over.
-TEST_CASE("what this program does not write in a row of jobs is damage, and names the column") {
+// Text that could reach a terminal, a figure or a page, and numbers that libraries cannot handle.
+TEST_CASE(
+    "values that this program does not write in a row of jobs are damage, and the column is "
+    "named") {
   const auto complaint = [](const std::string& change) {
     Vandal vandal;
     vandal.sqlite.exec("PRAGMA ignore_check_constraints = ON");
@@ -179,7 +181,7 @@ TEST_CASE("an error with control characters is stored without them") {
   CHECK(vandal.store.job(vandal.job_id).error == "two lines,  [2J,   and µ");
 }
 
-TEST_CASE("jobs are listed by kind, physics and seed, however they were planned") {
+TEST_CASE("jobs are listed by kind, physics and seed, in whatever order they were planned") {
   Store store = Store::in_memory();
   store.add(plan({cooling(0.9, 2), cooling(0.8, 10), cooling(0.9, 1), cooling(0.8, 9)}));
   std::vector<std::pair<std::optional<double>, std::uint64_t>> order;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Samples beside their jobs: in the view series, and joined by a user.
+// Samples beside their jobs, in the view series and in a user's joins.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <doctest/doctest.h>
 
@@ -18,7 +18,7 @@ Sample at(double tau, double temperature) {
   return {.tau = tau, .time = 2 * tau, .temperature = temperature, .a2 = -0.02};
 }
 
-// Two gases: the equilibration, job 1, and e = 0.9 and 0.8 in an order that does not matter.
+// Two gases with one equilibration, job 1: e = 0.9 and 0.8, in an order that does not matter.
 Store little_store() {
   Store store = Store::in_memory();
   store.add(plan({cooling(0.8), cooling(0.9)}));
@@ -43,7 +43,7 @@ std::string rows(const Reader& store, const std::string& sql) {
   return all;
 }
 
-// How SQLite would look for the rows, in its words.
+// SQLite's own description of how it would find the rows.
 std::string way_to(const Reader& store, const std::string& sql) {
   std::string all;
   Query query = store.query("EXPLAIN QUERY PLAN " + sql);
@@ -59,7 +59,7 @@ constexpr const char* by_key = "SEARCH samples USING PRIMARY KEY (job_id=? AND t
 
 }  // namespace
 
-TEST_CASE("samples and jobs join without a word about tau") {
+TEST_CASE("samples and jobs join by job_id alone") {
   const Store store = little_store();
   CHECK(rows(store,
              "SELECT e, temperature FROM samples JOIN jobs USING (job_id) "
@@ -78,7 +78,7 @@ TEST_CASE("the view series has each sample beside its job's parameters") {
         "0.80 0.40 1000 1 20.0 40.0 0.80; 0.90 0.40 1000 1 20.0 40.0 0.90; ");
 }
 
-TEST_CASE("conditions on samples reach their key") {
+TEST_CASE("conditions on samples use their key") {
   const Store store = little_store();
   CHECK(contains(way_to(store, "SELECT a2 FROM series WHERE e = 0.9 AND tau = 20"), by_key));
   CHECK(contains(way_to(store, "SELECT e, a2 FROM samples JOIN jobs USING (job_id) WHERE tau = 20"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Snapshots: written once, read back with every byte, and safe as all else in the store is.
+// Snapshots are written once, read back with every byte, and as safe as the rest of the store.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <doctest/doctest.h>
 
@@ -38,7 +38,7 @@ std::int64_t count(const Reader& store, const std::string& table) {
 
 }  // namespace
 
-TEST_CASE("a job keeps when its samples and snapshots are taken") {
+TEST_CASE("a job keeps the times of its samples and snapshots") {
   Store store = Store::in_memory();
   store.add(plan({with_snapshots()}));
   const JobRow row = store.job(store.find(with_snapshots()).value());
@@ -47,7 +47,7 @@ TEST_CASE("a job keeps when its samples and snapshots are taken") {
   CHECK(row.series == series_identity(with_snapshots()));
 }
 
-TEST_CASE("stores that are brought forward have the digest of no snapshots (020-moments.sql)") {
+TEST_CASE("a store that is brought forward has the digest of an empty table of snapshots") {
   Store store = Store::in_memory();
   store.add(plan({cooling()}));
   CHECK(store.query("SELECT DISTINCT snapshots FROM digests").next() ==
@@ -72,7 +72,7 @@ TEST_CASE("snapshots come back byte for byte, also those of several chunks") {
   CHECK_FALSE(working.store.snapshot(job_id, 21).has_value());
 }
 
-TEST_CASE("a snapshot that comes out again is compared, and kept") {
+TEST_CASE("a snapshot that is computed again is compared, and the first one is kept") {
   Working working;
   const Lease& lease = working.claim.lease;
   working.store.commit(lease, {.snapshots = {snapshot_at(1)}});
@@ -83,7 +83,7 @@ TEST_CASE("a snapshot that comes out again is compared, and kept") {
   CHECK(refusal([&] {
           working.store.commit(lease, {.snapshots = {snapshot_at(3), other}});
         }).find("the snapshot at tau = 1 came out different") != std::string::npos);
-  CHECK(working.store.snapshots(lease.job_id).size() == 2);  // all of the commit is undone
+  CHECK(working.store.snapshots(lease.job_id).size() == 2);  // the whole commit is undone
 }
 
 TEST_CASE("damage to a snapshot is found") {
@@ -104,7 +104,7 @@ TEST_CASE("damage to a snapshot is found") {
   CHECK(working.store.digests(job_id).wrong == std::vector{Part::snapshots});
 }
 
-TEST_CASE("snapshots go with their job, and with rows that are dropped") {
+TEST_CASE("snapshots are removed with their job, and with rows that are dropped") {
   Revised store(Store::in_memory());
   store.add(plan({cooling()}));
   equilibrate(store);
@@ -141,7 +141,7 @@ TEST_CASE("snapshots are taken over from another store, and compared") {
         std::string::npos);
 }
 
-TEST_CASE("a snapshot that another computation found wrong is replaced with its bytes") {
+TEST_CASE("a snapshot that a second computation found wrong is replaced, with its bytes") {
   const TemporaryFolder folder;
   Working here(Store::create(folder / "a.db")), there;
   const std::int64_t job_id = here.claim.lease.job_id;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A store with a job that is being worked on.
+// A store with a job that is being run.
 #pragma once
 
 #include <utility>

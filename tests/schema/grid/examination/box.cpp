@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Gases that do not fit into their box or the machine, or cannot be prepared.
+// Gases that do not fit into their box or into memory, or that cannot be prepared.
 #include "schema/grid/examination/box.hpp"
 
 #include <doctest/doctest.h>
@@ -12,7 +12,7 @@
 
 using namespace haff::schema;
 
-TEST_CASE("a box too small, or a machine too small, is refused with numbers") {
+TEST_CASE("a box or a machine that is too small is refused with numbers") {
   check_complaint(
       with("N", "3"),
       "g.json: /N: 3 particles at n = 0.4 have a box of 7.5 sigma^3; expected a side of "
@@ -32,7 +32,7 @@ TEST_CASE("a box too small, or a machine too small, is refused with numbers") {
                   "number from 2 to below 2^28, or a list of them");
 }
 
-TEST_CASE("a mixture is as dense as the volume that it fills") {
+TEST_CASE("the density limit of a mixture depends on the volume of its particles") {
   const auto mixture = [](const std::string& n, const std::string& fraction,
                           const std::string& diameter) {
     return complaint(
@@ -75,7 +75,7 @@ TEST_CASE("observables that need a larger box are refused") {
       "at n = 0.4 do not fill; expected N above 6.4");
 }
 
-TEST_CASE("the least gas is too small for what is averaged over distances") {
+TEST_CASE("the smallest gas is too small for averages over distances") {
   check_complaint(with("N", R"(4, "observables": ["structure"], "profiles_every": 5)"),
                   "g.json: /observables/0: \"structure\" needs a box wider than 8 sigma, which 4 "
                   "particles at n = 0.4 do not fill; expected N above 205");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What is left out of a grid, or said twice.
+// Keys that a grid leaves out, and values that it repeats.
 #include "schema/grid/examination/examiner.hpp"
 
 #include <doctest/doctest.h>

@@ -9,7 +9,7 @@
 
 using namespace haff::schema;
 
-TEST_CASE("a target that runs cannot judge is refused") {
+TEST_CASE("a target that the runs cannot judge is refused") {
   check_complaint(with_target(R"({"a2": {"tau": [5, 15], "se": 5e-4}})", R"("seeds": 3)"),
                   "g.json: /seeds: 3 are too few pilot runs for a target; expected at least 5 "
                   "seeds");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What lies beyond a run, or between its samples.
+// Times that lie beyond a run, or between its samples.
 #include "schema/grid/examination/tau.hpp"
 
 #include <doctest/doctest.h>
@@ -12,7 +12,7 @@
 
 using namespace haff::schema;
 
-TEST_CASE("a tau_max map must name the e of its grid, each once") {
+TEST_CASE("a tau_max map must name each e of its grid once, and no other") {
   check_complaint(with("tau_max", R"({"0.9": 90})"),
                   "g.json: /tau_max/0.9: there is no such e; expected the e of this grid: 0.8");
   check_complaint(with("tau_max", R"({"0.8": 90, "0.9": 180})"),
@@ -40,7 +40,7 @@ TEST_CASE("samples must be at least a collision apart and within the run") {
       "g.json: /sample_every/1: 100 is longer than the run; expected at most tau_max = 90");
 }
 
-TEST_CASE("profiles and fields have their times where they are asked for") {
+TEST_CASE("the times of profiles and fields are set where these are asked for") {
   const auto only = [](const std::string& text) { return parse(text).grids.at(0); };
   const SubGrid plain = only(with("profiles_every", "20"));
   CHECK_FALSE(plain.profiles_every);
@@ -52,7 +52,7 @@ TEST_CASE("profiles and fields have their times where they are asked for") {
   CHECK(full.fields_at == std::vector{20.0, 60.0});
 }
 
-TEST_CASE("profiles and fields belong to samples within the run") {
+TEST_CASE("profiles and fields are taken at samples within the run") {
   check_complaint(
       with("observables", R"("structure", "profiles_every": 5, "sample_every": [1, 2])"),
       "g.json: /profiles_every: 5 falls between samples; expected a multiple of sample_every = 2");
@@ -73,7 +73,7 @@ TEST_CASE("profiles and fields belong to samples within the run") {
                   "[collisions per particle], a multiple of sample_every or a list of them");
 }
 
-TEST_CASE("waiting times of msd and vacf are samples of the run, spelled in one way, and few") {
+TEST_CASE("waiting times of msd and vacf are samples of the run, in one spelling, and few") {
   CHECK(
       complaint(with("observables", R"(["msd", "msd@20", "vacf@0.5"])")) ==
       "g.json: /observables/2: 0.5 falls between samples; expected a multiple of sample_every = 1");
@@ -89,7 +89,7 @@ TEST_CASE("waiting times of msd and vacf are samples of the run, spelled in one 
         "g.json: /observables/16: \"vacf@16\" is one waiting time too many; expected at most 16");
 }
 
-TEST_CASE("samples and snapshots at moments of their own, in every form") {
+TEST_CASE("samples and snapshots may have moments of their own, in every form") {
   const auto sample_at = [](const std::string& value) {
     return parse(with("sample_at", value)).grids[0].sample_at;
   };
@@ -103,14 +103,14 @@ TEST_CASE("samples and snapshots at moments of their own, in every form") {
   CHECK(sample_at(R"({"time": [1e20, 3]})").time.listed == std::vector{3.0, 1e20});
   CHECK(parse(with("snapshots_at", "[10]")).grids[0].snapshots_at.tau.listed == std::vector{10.0});
   CHECK(parse(with("seeds", "1")).grids[0].sample_at.empty());
-  // Beside "grids" it is the default of all.
+  // Beside "grids" it is the default of all grids.
   CHECK(parse(R"({"e": 0.8, "n": 0.4, "N": 1000, "seeds": 1, "tau_max": 9, "sample_at": [0.5],
                   "grids": [{}, {"sample_at": [2.5]}]})")
             .grids[1]
             .sample_at.tau.listed == std::vector{2.5});
 }
 
-TEST_CASE("moments that no run meets, or that are no moments, are refused") {
+TEST_CASE("moments beyond the run, or that are not moments, are refused") {
   check_complaint(with("sample_at", "[0.5, 95]"),
                   "g.json: /sample_at/1: 95 is beyond the run; expected at most tau_max = 90");
   check_complaint(with("snapshots_at", R"({"tau": {"log": 2, "from": 100}})"),

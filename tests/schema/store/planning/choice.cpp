@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Which jobs a user's SQL chooses, in which order they are claimed, and what SQL is refused.
+// The jobs that a user's SQL chooses, the order in which they are claimed, and SQL that is refused.
 #include "schema/store/planning/choice.hpp"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@ using namespace haff::schema;
 
 namespace {
 
-// Two e, two seeds: equilibrations 1 and 4, cooling jobs 2, 3 (seed 1), 5, 6 (seed 2).
+// Two e and two seeds: equilibrations 1 and 4, cooling jobs 2, 3 (seed 1) and 5, 6 (seed 2).
 Store little_store() {
   Store store = Store::in_memory();
   Job rough = cooling(0.9, 2);
@@ -43,7 +43,7 @@ Selection selection(const std::string& where, const std::string& order = {}) {
   return {std::move(store), choice};
 }
 
-// Runs all that is chosen, one job after another: "equilibration 1, cooling 0.8 1, ...".
+// Runs all chosen jobs, one after another: "equilibration 1, cooling 0.8 1, ...".
 std::string order_of_work(Selection& store) {
   std::string text;
   while (const auto claim = store.claim(me, "test")) {
@@ -61,7 +61,7 @@ std::string order_of_work(Selection& store) {
 TEST_CASE("a condition chooses cooling jobs by their columns, by N and by parameters of effects") {
   const Store store = little_store();
   CHECK(chosen(store, "e = 0.8") == 2);
-  CHECK(chosen(store, "e > 0.5") == 4);  // and no equilibration, whose e is 1
+  CHECK(chosen(store, "e > 0.5") == 4);  // but no equilibration, although its e is 1
   CHECK(chosen(store, "N = 2000") == 1);
   CHECK(chosen(store, "n = 0.4") == 4);
   CHECK(chosen(store, "roughness.beta = 0.5") == 1);
@@ -77,7 +77,7 @@ TEST_CASE("only a condition that names kind or job_id chooses among equilibratio
   CHECK(chosen(store, "seed = 1") == 2);
 }
 
-TEST_CASE("what is no condition, or writes, is refused") {
+TEST_CASE("SQL that is not a condition, or that writes, is refused") {
   CHECK(complaint("e = 0.9, n = 0.4").find("is not a condition") != std::string::npos);
   CHECK(complaint("DELETE FROM jobs").find("syntax error") != std::string::npos);
   CHECK(complaint("1); DELETE FROM jobs; --").find("one statement at a time") != std::string::npos);
@@ -98,7 +98,7 @@ TEST_CASE("what is no condition, or writes, is refused") {
   CHECK(complaint("", "sed").ends_with("no such column: sed; did you mean \"seed\"?"));
 }
 
-TEST_CASE("a selection runs what is chosen, and before that what it starts from") {
+TEST_CASE("a selection runs the chosen jobs, and first the equilibrations from which they start") {
   Selection store = selection("e = 0.9 AND seed = 1");
   CHECK(store.summary().claimable == 1);  // the equilibration
   CHECK(store.summary().waiting == 1);
@@ -110,12 +110,12 @@ TEST_CASE("a selection runs what is chosen, and before that what it starts from"
   CHECK(store.series().size() == 1);
 }
 
-TEST_CASE("a selection of equilibrations alone") {
+TEST_CASE("a selection may be of equilibrations alone") {
   Selection store = selection("kind = 'equilibration' AND seed = 2");
   CHECK(order_of_work(store) == "equilibration 2, equilibration 2");
 }
 
-TEST_CASE("jobs are claimed in the order that is asked for, each after its equilibration") {
+TEST_CASE("jobs are claimed in the given order, each after its equilibration") {
   Selection up = selection("N = 1000", "seed, e DESC");
   CHECK(order_of_work(up) ==
         "equilibration 1, cooling 0.9 1, cooling 0.8 1, equilibration 2, cooling 0.8 2");
@@ -125,14 +125,14 @@ TEST_CASE("jobs are claimed in the order that is asked for, each after its equil
         "cooling 0.9 2, cooling 0.9 1");
 }
 
-TEST_CASE("without a choice, a selection is the store") {
+TEST_CASE("without a condition, a selection is the whole store") {
   Selection store = selection("");
   CHECK(store.choice().is_everything());
   CHECK(store.summary().jobs.at(Status::pending) == 7);
   CHECK(order_of_work(store).substr(0, 48) == "equilibration 2, equilibration 1, equilibration ");
 }
 
-TEST_CASE("a condition on seeds or numbers of jobs asks for no further realizations") {
+TEST_CASE("a condition on seeds or job numbers excludes further realizations") {
   const Store store = little_store();
   CHECK(Choice(store, "seed < 3").names_realizations());
   CHECK(Choice(store, "e = 0.8 AND job_id < 3").names_realizations());

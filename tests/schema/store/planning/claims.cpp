@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Claiming, giving back, failing, reopening: which change of a job is whose.
+// Jobs are claimed, given back, failed and reopened: each change is made by its owner alone.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -12,7 +12,7 @@
 
 using namespace haff::schema;
 
-TEST_CASE("equilibrations come first, cooling when its own is done") {
+TEST_CASE("equilibrations come first, and a cooling job when its equilibration is done") {
   Store store = Store::in_memory();
   store.add(plan({cooling(0.8, 1), cooling(0.8, 2)}));
   const auto one = store.claim(me, "test"), other = store.claim(me, "test");
@@ -52,7 +52,7 @@ TEST_CASE("a job is computed again from its start unless a worker holds it") {
   complete(store, *claim);
   REQUIRE(store.checkpoint(id));
   CHECK(store.restart(id));
-  // The old state stays, unused, until a new one takes its place.
+  // The old state stays, unused, until a new one replaces it.
   REQUIRE(store.checkpoint(id));
   CHECK(store.job(id).starts_over);
   const auto again = store.claim(me, "test");
@@ -67,7 +67,7 @@ TEST_CASE("a job is computed again from its start unless a worker holds it") {
   CHECK_FALSE(store.job(id).starts_over);
 }
 
-TEST_CASE("a job that ends from its start without a new state leaves no damaged one behind") {
+TEST_CASE("a job that was computed again without a new state leaves no damaged state behind") {
   Store store = Store::in_memory();
   store.add(plan({cooling(0.8)}));
   equilibrate(store);
@@ -80,7 +80,7 @@ TEST_CASE("a job that ends from its start without a new state leaves no damaged 
   CHECK_FALSE(store.job(claim.lease.job_id).starts_over);
 }
 
-TEST_CASE("what takes longest is claimed first") {
+TEST_CASE("the longest job is claimed first") {
   Store store = Store::in_memory();
   auto jobs = plan({cooling(0.7), cooling(0.8), cooling(0.9)});
   jobs[1].expected_cpu_seconds = 10;
@@ -91,7 +91,7 @@ TEST_CASE("what takes longest is claimed first") {
   for (const double e : {0.8, 0.9, 0.7}) CHECK(store.claim(me, "test")->job.e == e);
 }
 
-TEST_CASE("a claim tells where the job stands and marks its holder") {
+TEST_CASE("a claim gives the state of the job and marks its holder") {
   Store store = Store::in_memory();
   auto jobs = plan({cooling()});
   jobs[1].checkpoint_every = 20;
@@ -184,7 +184,7 @@ TEST_CASE("release and reclaim put a job back to its checkpoint and cost no atte
     CHECK(working.row().status == Status::pending);
     CHECK(working.row().progress.tau == 10);
     CHECK(working.row().progress.collisions == 5000);
-    CHECK(working.row().progress.cpu_seconds == 5);  // spent is spent
+    CHECK(working.row().progress.cpu_seconds == 5);  // the time that was spent still counts
     CHECK(working.row().attempts == 0);
     CHECK(working.store.running().empty());
     CHECK(working.store.claim(me, "test")->cpu_seconds == 5);
@@ -212,7 +212,7 @@ TEST_CASE("a job is retried until its attempts are used up") {
   CHECK_FALSE(working.row().error);
 }
 
-TEST_CASE("a new checkpoint gives a job all its attempts back") {
+TEST_CASE("a new checkpoint gives a job back all its attempts") {
   Working working;
   working.store.fail(working.claim.lease, "killed");
   const Claim claim = *working.store.claim(me, "test");

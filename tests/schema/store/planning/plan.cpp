@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a plan adds to a store, and what it leaves as it is.
+// The changes that a plan makes to a store, and what it leaves as it is.
 #include <doctest/doctest.h>
 
 #include <stdexcept>
@@ -32,7 +32,7 @@ TEST_CASE("a planned job is in the store with all its physics") {
   CHECK_FALSE(store.find(cooling(0.5)));
 }
 
-TEST_CASE("a second plan adds nothing, a larger one the difference") {
+TEST_CASE("a second plan adds nothing, and a larger one adds the difference") {
   Store store = Store::in_memory();
   store.add(plan({cooling(0.8)}));
   CHECK(store.add(plan({cooling(0.8)})) == std::vector{Outcome::unchanged, Outcome::unchanged});
@@ -67,7 +67,7 @@ TEST_CASE("a larger tau_max reopens a finished job at its checkpoint") {
   CHECK(working.store.claim(me, "test")->tau_max == 120);
 }
 
-TEST_CASE("a job extended while it runs is pending when its worker is done with the old length") {
+TEST_CASE("a job that is extended while it runs becomes pending at its old length") {
   Working working;
   working.store.add(plan({cooling()}, 120));
   CHECK(working.row().status == Status::running);
@@ -102,7 +102,7 @@ TEST_CASE("a target that is planned again changes its error, not its pilot runs"
   CHECK(targets[0].pilots == std::vector<std::uint64_t>{1, 2, 3, 4, 5});
 }
 
-TEST_CASE("what was expected of a target first is kept, for each standard error") {
+TEST_CASE("the first prediction for a target is kept, for each standard error") {
   Store store = Store::in_memory();
   Target target{
       .series = series_identity(cooling()), .quantity = "a2", .se = 1e-3, .pilots = {1, 2, 3}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Jobs that are cancelled, and grids that replace a plan: what goes, what stays, and that the store
-// is sound afterwards.
+// Jobs that are cancelled and grids that replace a plan: what is removed, what stays, and that the
+// store is sound afterwards.
 #include "schema/store/planning/revision.hpp"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ Sample at(double tau) {
   return {.tau = tau, .time = tau, .temperature = 1};
 }
 
-// Runs the job that comes next up to tau = 30 of 90, and stores it there.
+// Runs the next job up to tau = 30 of 90, and stores it there.
 std::int64_t begin_next(Store& store) {
   const auto claim = store.claim(me, "test").value();
   store.commit(claim.lease, {.samples = {at(0), at(30)},
@@ -55,7 +55,7 @@ Target target_of(const Job& job) {
 
 }  // namespace
 
-TEST_CASE("planned jobs go, and equilibrations with the last job that starts from them") {
+TEST_CASE("planned jobs are removed, and equilibrations with the last job that starts from them") {
   Revised store(Store::in_memory());
   store.add(plan({cooling(0.8), cooling(0.9)}));  // 1: equilibration, 2, 3
   CHECK(count(store.cancel(Choice(store, "e = 0.8"), false), Fate::removed) == 1);
@@ -65,7 +65,7 @@ TEST_CASE("planned jobs go, and equilibrations with the last job that starts fro
   CHECK(is_sound(store));
 }
 
-TEST_CASE("looking at a cancellation changes nothing, and says the same") {
+TEST_CASE("a preview of a cancellation changes nothing and gives the same result") {
   Revised store(Store::in_memory());
   store.add(plan({cooling(0.8), cooling(0.9)}));
   const Choice choice(store, "e = 0.8");
@@ -77,7 +77,7 @@ TEST_CASE("looking at a cancellation changes nothing, and says the same") {
   CHECK(seen.jobs[0].why == "is planned");
 }
 
-TEST_CASE("begun jobs end where they are stored, done ones stay") {
+TEST_CASE("begun jobs end where they are stored, and done jobs stay") {
   Revised store(Store::in_memory());
   store.add(plan({cooling(0.8), cooling(0.9)}));
   equilibrate(store);
@@ -92,7 +92,7 @@ TEST_CASE("begun jobs end where they are stored, done ones stay") {
   CHECK(is_sound(store));
 }
 
-TEST_CASE("with its rows a done job goes, and its equilibration when nothing starts from it") {
+TEST_CASE("a done job is removed with its rows, and its equilibration when no job starts from it") {
   Revised store(Store::in_memory());
   store.add(plan({cooling(0.8), cooling(0.9)}));
   while (const auto claim = store.claim(me, "test"))
@@ -109,7 +109,7 @@ TEST_CASE("with its rows a done job goes, and its equilibration when nothing sta
   CHECK(is_sound(store));
 }
 
-TEST_CASE("an equilibration from which a job starts stays, also when it is chosen") {
+TEST_CASE("an equilibration from which a job starts stays even when it is chosen") {
   Revised store(Store::in_memory());
   store.add(plan({cooling(0.8)}));
   const Revision revision = store.cancel(Choice(store, "kind = 'equilibration'"), true);
@@ -117,7 +117,7 @@ TEST_CASE("an equilibration from which a job starts stays, also when it is chose
   CHECK(of_job(revision, 1).why == "job 2 starts from it");
 }
 
-TEST_CASE("a job that a worker has is left alone, and named with its worker") {
+TEST_CASE("a job that is being run is left alone, and named with its worker") {
   Revised store(Store::in_memory());
   store.add(plan({cooling(0.8)}));
   equilibrate(store);
@@ -128,7 +128,7 @@ TEST_CASE("a job that a worker has is left alone, and named with its worker") {
   CHECK(complete(store, *claim) == Status::done);
 }
 
-TEST_CASE("a target goes with the jobs that it would plan again") {
+TEST_CASE("a target is removed with the jobs that it would plan again") {
   Revised store(Store::in_memory());
   store.add(plan({cooling(0.8, 1), cooling(0.8, 2), cooling(0.9, 1), cooling(0.9, 2)}));
   store.add(std::vector<Target>{target_of(cooling(0.8)), target_of(cooling(0.9))});
@@ -138,7 +138,7 @@ TEST_CASE("a target goes with the jobs that it would plan again") {
   CHECK(is_sound(store));
 }
 
-TEST_CASE("a grid takes the place of what is planned") {
+TEST_CASE("a grid replaces what is planned") {
   Revised store(Store::in_memory());
   store.add(plan({cooling(0.8), cooling(0.9), cooling(0.95)}));
   equilibrate(store);
@@ -163,7 +163,7 @@ TEST_CASE("a grid takes the place of what is planned") {
   CHECK(is_sound(store));
 }
 
-TEST_CASE("a grid that replaces lowers tau_max, but never below what is stored") {
+TEST_CASE("a replacing grid lowers tau_max, but never below what is stored") {
   Revised store(Store::in_memory());
   store.add(plan({cooling(0.8), cooling(0.9)}));
   equilibrate(store);
@@ -175,7 +175,7 @@ TEST_CASE("a grid that replaces lowers tau_max, but never below what is stored")
   CHECK(is_sound(store));
 }
 
-TEST_CASE("a done job has more than a smaller tau_max asks for, and stays done") {
+TEST_CASE("a done job stays done when tau_max is lowered") {
   Revised store(Store::in_memory());
   store.add(plan({cooling(0.8)}));
   while (const auto claim = store.claim(me, "test")) complete(store, *claim);
@@ -184,7 +184,7 @@ TEST_CASE("a done job has more than a smaller tau_max asks for, and stays done")
   CHECK(store.job(2).status == Status::done);
 }
 
-TEST_CASE("seeds that a target of the grid has added stay planned, other targets go") {
+TEST_CASE("seeds that a target of the grid has added stay planned, and other targets are removed") {
   Revised store(Store::in_memory());
   store.add(plan({cooling(0.8, 1), cooling(0.8, 2), cooling(0.8, 3), cooling(0.9, 1)}));
   store.add(std::vector<Target>{target_of(cooling(0.8)), target_of(cooling(0.9))});
@@ -196,7 +196,7 @@ TEST_CASE("seeds that a target of the grid has added stay planned, other targets
   CHECK(store.targets().size() == 1);
 }
 
-TEST_CASE("space is given back to the disk") {
+TEST_CASE("the space is given back to the disk") {
   const TemporaryFolder folder;
   Revised store(Store::create(folder / "a.db"));
   store.add(plan({cooling(0.8)}));

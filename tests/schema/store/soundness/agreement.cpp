@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Samples that are computed a second time: of one job, and of two jobs with the same physics.
+// Samples that are computed twice: by one job, or by two jobs with the same physics.
 #include "schema/store/soundness/agreement.hpp"
 
 #include <doctest/doctest.h>
@@ -41,7 +41,7 @@ struct TwoJobs {
 
 }  // namespace
 
-TEST_CASE("agreement: samples that are there already are kept, and every column must agree") {
+TEST_CASE("agreement: samples that are already stored are kept, and every column must agree") {
   TwoJobs jobs;
   const Lease lease = jobs.held.lease;
   jobs.store.commit(lease, {.samples = {full_sample(2)}});
@@ -58,7 +58,7 @@ TEST_CASE("agreement: samples that are there already are kept, and every column 
   CHECK_THROWS_AS(jobs.store.commit(lease, {.samples = {late}}), Damage);
 }
 
-TEST_CASE("agreement: the last digits of a logarithm or a transform may differ, no others") {
+TEST_CASE("agreement: only the last digits of a logarithm or a transform may differ") {
   TwoJobs jobs;
   const Lease lease = jobs.held.lease;
   jobs.store.commit(lease, {.samples = {full_sample(2)}});
@@ -75,7 +75,7 @@ TEST_CASE("agreement: the last digits of a logarithm or a transform may differ, 
   }
 }
 
-TEST_CASE("agreement: what only one of two has is not compared") {
+TEST_CASE("agreement: a column that only one of two samples has is not compared") {
   TwoJobs jobs;
   const Lease lease = jobs.held.lease;
   Sample less = full_sample(2);
@@ -85,7 +85,7 @@ TEST_CASE("agreement: what only one of two has is not compared") {
   CHECK(jobs.store.samples(lease.job_id) == std::vector{less});
 }
 
-TEST_CASE("agreement: a job that observes a gas once more must find what the first has found") {
+TEST_CASE("agreement: a second job on the same gas must find the same values") {
   for (const double sample_every : {1.0, 2.0}) {
     CAPTURE(sample_every);
     TwoJobs jobs(sample_every);
