@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What errors come from, of gases whose errors are put in.
+// The sources of error, in artificial gases whose errors are known.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr Quantity a2{.measure = Measure::a2, .from = 5, .to = 15};
 
-// Realizations whose a2 is constant in tau: `mean` and normal noise.
+// Realizations whose a2 is constant in tau: `mean` plus normal noise.
 FinishedSeries gas(std::uint32_t particles, std::size_t realizations, double mean, double deviation,
                    double cpu_seconds) {
   FinishedSeries series{
@@ -35,7 +35,7 @@ FinishedSeries gas(std::uint32_t particles, std::size_t realizations, double mea
   return series;
 }
 
-// a2 = -0.04 but for 0.01 more in the small box; noise as N^-1/2.
+// a2 = -0.04, and larger by 0.01 in the small box; the noise is proportional to N^-1/2.
 std::vector<FinishedSeries> two_sizes() {
   return {gas(1000, 256, -0.03, 0.02, 0.1), gas(4000, 256, -0.04, 0.01, 0.5)};
 }
@@ -52,7 +52,7 @@ TEST_CASE("assessment: errors of independent realizations fall as one over the r
   const Assessment assessment = assess(two_sizes());
   const Statistics& small = of_size(assessment, 1000);
   CHECK(small.realizations == 256);
-  CHECK(small.error == Approx(0.02 / 16).epsilon(0.2));  // four errors of an error: 18 %
+  CHECK(small.error == Approx(0.02 / 16).epsilon(0.2));  // four errors of the error: 18 %
   CHECK(small.cpu_seconds == Approx(0.1));
   REQUIRE(small.slope);
   CHECK(std::abs(small.slope->value + 0.5) < 4 * small.slope->error);
@@ -87,7 +87,7 @@ TEST_CASE("assessment: an accuracy that a small gas cannot reach takes the large
   CHECK(fine->cpu_seconds == Approx(0.5 * static_cast<double>(fine->realizations)));
 }
 
-TEST_CASE("assessment: what the store says nothing of is named, quantity by quantity") {
+TEST_CASE("assessment: effects about which the store has no data are named for each quantity") {
   const Assessment assessment = assess(two_sizes());
   const auto unknown = [&](SystematicEffect cause) {
     return std::ranges::count_if(assessment.unknown, [&](const UnknownBias& each) {
@@ -97,7 +97,7 @@ TEST_CASE("assessment: what the store says nothing of is named, quantity by quan
   CHECK(unknown(SystematicEffect::finite_size) == 0);
   CHECK(unknown(SystematicEffect::equilibration) == 1);
   CHECK(unknown(SystematicEffect::sampling) == 0);
-  CHECK(unknown(SystematicEffect::mesh) == 0);  // it moves correlations alone
+  CHECK(unknown(SystematicEffect::mesh) == 0);  // the mesh affects correlations alone
 }
 
 TEST_CASE("assessment: quantities that no run has are named, with the reason") {
@@ -115,7 +115,9 @@ TEST_CASE("assessment: quantities that no run has are named, with the reason") {
   CHECK(unmeasured->reached);
 }
 
-TEST_CASE("assessment: of as many particles in all the larger gas shows what sampling does") {
+TEST_CASE(
+    "assessment: of two series with as many particles in all, the larger gas shows the sampling "
+    "effect") {
   const Assessment assessment =
       assess({gas(1000, 64, -0.03, 0.02, 0.1), gas(4000, 16, -0.04, 0.01, 0.5)});
   bool any = false;
@@ -128,7 +130,7 @@ TEST_CASE("assessment: of as many particles in all the larger gas shows what sam
   CHECK(any);
 }
 
-TEST_CASE("assessment: a gas without the quantity does not stand for it") {
+TEST_CASE("assessment: a gas without the quantity is not used for it") {
   std::vector<FinishedSeries> series{gas(1000, 8, -0.03, 0.02, 0.1),
                                      gas(4000, 8, -0.04, 0.01, 0.5)};
   for (FinishedRun& run : series[1].runs)
@@ -141,7 +143,7 @@ TEST_CASE("assessment: a gas without the quantity does not stand for it") {
   CHECK(shift->job.particles == 1000);
 }
 
-TEST_CASE("assessment: fewer samples that are the same ones are said to be") {
+TEST_CASE("assessment: samples that are a subset of others are reported as such") {
   auto series = two_sizes();
   for (FinishedSeries& each : series)
     for (FinishedRun& run : each.runs)
@@ -158,8 +160,8 @@ TEST_CASE("assessment: fewer samples that are the same ones are said to be") {
 
 namespace {
 
-// One run whose a2 forgets itself as exp(-tau / 1.9), as near the Gaussian: integrated correlation
-// time 1.94 for a sample every 1.
+// One run whose a2 has the correlation function exp(-tau / 1.9), as near the Gaussian: the
+// integrated correlation time is 1.94 for a sample every 1.
 FinishedSeries correlated(double tau_max, double sample_every, std::uint64_t seed) {
   const double memory = std::exp(-sample_every / 1.9);
   FinishedSeries series{.job = {.e = 0.9,
@@ -180,8 +182,8 @@ FinishedSeries correlated(double tau_max, double sample_every, std::uint64_t see
 }  // namespace
 
 TEST_CASE("assessment: the error of a single run is the scatter of its window's mean") {
-  // The scatter of 400 values is known to 3.5 %; blocks of eight correlation times may show a tenth
-  // too little.
+  // The scatter of 400 values is known to 3.5 %; blocks of eight correlation times may be too small
+  // by a tenth.
   for (const double sample_every : {0.25, 1.0}) {
     double squares = 0, claimed = 0;
     std::size_t runs = 0;
@@ -219,7 +221,8 @@ TEST_CASE("assessment: a run too short to show its correlation time has no error
     }
 }
 
-TEST_CASE("assessment: what wider cells do to a correlation is the difference of the same states") {
+TEST_CASE(
+    "assessment: the effect of wider cells on a correlation is a difference of the same states") {
   auto series = two_sizes();
   for (FinishedSeries& each : series)  // the small gas ends where the correlation is asked for
     for (std::size_t k = 0; k < each.runs.size(); ++k) {
@@ -242,7 +245,7 @@ TEST_CASE("assessment: what wider cells do to a correlation is the difference of
 }
 
 TEST_CASE(
-    "assessment: a target's window is among the quantities, its interval rests on the pilots") {
+    "assessment: a target's window is one of the quantities, with an interval from the pilots") {
   const Quantity early{.measure = Measure::a2, .from = 3, .to = 8};
   const auto series = two_sizes();
   const schema::Target target{.series = schema::series_identity(series[0].job),
@@ -265,7 +268,7 @@ TEST_CASE(
                               [&](const Statistics& each) { return each.quantity == early; }) == 2);
 }
 
-TEST_CASE("assessment: where the largest gas is known too badly more of it is advised") {
+TEST_CASE("assessment: more runs of the largest gas are advised where its error is too large") {
   // Both sizes are equal within their errors; the small one is cheaper.
   const std::vector<FinishedSeries> series{gas(1000, 256, -0.04, 0.02, 0.1),
                                            gas(4000, 4, -0.04, 0.01, 10)};
@@ -279,11 +282,11 @@ TEST_CASE("assessment: where the largest gas is known too badly more of it is ad
   CHECK(smaller_might_do(assessment, key, a2, uncertain / 2) ==
         (finite_size_error(assessment, of_size(assessment, 1000)) < uncertain / 2));
   CHECK_FALSE(smaller_might_do(assessment, key, a2, 10 * uncertain));
-  // Of two_sizes() the small one is seen to be too small.
+  // In two_sizes() the small gas is known to be too small.
   CHECK_FALSE(smaller_might_do(assess(two_sizes()), key, a2, 1e-4));
 }
 
-TEST_CASE("assessment: where runs end before their tau_c the mean of the others is no measure") {
+TEST_CASE("assessment: tau_c is not averaged where some runs end before it") {
   auto series = two_sizes();
   for (FinishedSeries& each : series)
     for (std::size_t k = 0; k < each.runs.size(); ++k)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Differences of gases that share what chance does to them.
+// Differences of gases whose random errors are partly the same.
 #include "campaign/accuracy/differences.hpp"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr Quantity a2{.measure = Measure::a2, .from = 5, .to = 15};
 
-// a_2 = mean + a part that is common to the seed, whatever e, + a part of its own.
+// a_2 = mean + a random part that depends on the seed but not on e + another random part.
 FinishedSeries gas(double e, double mean, double common, double own,
                    std::uint32_t particles = 1000) {
   FinishedSeries series{
@@ -35,7 +35,7 @@ FinishedSeries gas(double e, double mean, double common, double own,
 
 }  // namespace
 
-TEST_CASE("differences: what two gases have in common is not in the error of their difference") {
+TEST_CASE("differences: the common part of two gases is not in the error of their difference") {
   const auto all =
       paired_differences({gas(0.8, -0.03, 0.02, 0.002), gas(0.9, -0.01, 0.02, 0.002)}, {a2});
   REQUIRE(all.size() == 1);
@@ -43,7 +43,7 @@ TEST_CASE("differences: what two gases have in common is not in the error of the
   CHECK(each.difference.pairs == 64);
   CHECK(each.job.e == 0.9);
   CHECK(each.reference.e == 0.8);
-  // Errors of 64 normal values are known to 9 %: four of their errors.
+  // The errors of 64 normal values are known to 9 %; four times that is allowed.
   CHECK(each.difference.error == Approx(0.002 * std::sqrt(2) / 8).epsilon(0.36));
   CHECK(each.difference.independent == Approx(0.02 * std::sqrt(2) / 8).epsilon(0.36));
   CHECK(std::abs(each.difference.value - 0.02) < 4 * each.difference.error);

@@ -39,7 +39,7 @@ JobRow cooling(std::int64_t id, std::int64_t start, double cpu_seconds,
 
 }  // namespace
 
-TEST_CASE("division: every pending job is in one share, after what it starts from") {
+TEST_CASE("division: every pending job is in one share, after its equilibration") {
   std::mt19937 random(7);
   for (int round = 0; round < 50; ++round) {
     std::vector<JobRow> rows;
@@ -95,7 +95,7 @@ TEST_CASE("division: jobs that share an expensive equilibration stay together") 
   }
 }
 
-TEST_CASE("division: what runs, is lent, or waits for a failed equilibration stays") {
+TEST_CASE("division: jobs that run, are lent, or wait for a failed equilibration stay") {
   const std::vector<JobRow> rows{
       equilibration(1, 1, Status::failed), cooling(10, 1, 5), equilibration(2, 1, Status::done),
       cooling(11, 2, 5, Status::running), cooling(12, 2, 5, Status::lent)};

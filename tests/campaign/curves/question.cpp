@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a question means, and which ones make no sense.
+// The meaning of a question, and questions that make no sense.
 #include "campaign/curves/question.hpp"
 
 #include <doctest/doctest.h>
@@ -25,7 +25,7 @@ TEST_CASE("question: a column is a curve in tau, or in time") {
   CHECK(meant("a2/temperature", "time").kind == Topic::Kind::series);
 }
 
-TEST_CASE("question: against a parameter it is one number of each run") {
+TEST_CASE("question: against a parameter it is one number per run") {
   CHECK(meant("tau_c", "e").kind == Topic::Kind::quantity);
   const Topic plateau = meant("a2", "roughness.beta");
   CHECK(plateau.kind == Topic::Kind::quantity);
@@ -48,7 +48,7 @@ TEST_CASE("question: a profile is a curve in its own variable") {
   CHECK_THROWS_AS(meant("rho", "tau"), QuestionError);
 }
 
-TEST_CASE("question: a name that is not known comes back with the nearest") {
+TEST_CASE("question: an unknown name is refused with the nearest known one") {
   CHECK_THROWS_WITH(meant("temprature", "tau"), doctest::Contains("did you mean \"temperature\"?"));
   CHECK_THROWS_WITH(meant("a2", "timee"), doctest::Contains("did you mean \"time\"?"));
   CHECK_THROWS_WITH(topic_of({.y = "a2", .by = {"roughnes.beta"}}, words),
@@ -57,7 +57,7 @@ TEST_CASE("question: a name that is not known comes back with the nearest") {
                     doctest::Contains("did you mean \"roughness\"?"));
 }
 
-TEST_CASE("question: what needs a tau says so, and what has none refuses it") {
+TEST_CASE("question: a tau is required where one is needed, and refused elsewhere") {
   CHECK_THROWS_WITH(meant("pressure", "n"), doctest::Contains("pressure@20"));
   CHECK_THROWS_WITH(meant("tau_c", "tau"), doctest::Contains("one number of each run"));
   CHECK_THROWS_WITH(meant("a2@20", "tau"), doctest::Contains("one number of each run"));

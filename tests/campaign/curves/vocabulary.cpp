@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Words of a question, and the SQL made of them.
+// The words of a question, and the SQL made from them.
 #include "campaign/curves/vocabulary.hpp"
 
 #include <doctest/doctest.h>
@@ -31,7 +31,7 @@ TEST_CASE("vocabulary: N is the number of particles, which SQLite would take for
   CHECK(translated("jobs.e = 1", some_words) == "jobs.e = 1");  // no effect is called jobs
 }
 
-TEST_CASE("vocabulary: what is an average over an interval belongs to its middle") {
+TEST_CASE("vocabulary: an average over an interval belongs to its middle") {
   CHECK(is_of_interval("gamma_ratio"));
   CHECK(is_of_interval("pressure / n"));
   CHECK_FALSE(is_of_interval("temperature"));

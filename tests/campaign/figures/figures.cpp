@@ -42,7 +42,8 @@ Drawn draw(const schema::Reader& store, const std::filesystem::path& out,
 
 }  // namespace
 
-TEST_CASE("figures: a small campaign gives tables and pictures of all it can draw, and a page") {
+TEST_CASE(
+    "figures: a small campaign gives tables and pictures of all that it can draw, and a page") {
   const TemporaryFolder folder;
   const auto made = folder.path() / "made" / "here";
   const auto drawn = draw(first_campaign(), made);
@@ -57,7 +58,7 @@ TEST_CASE("figures: a small campaign gives tables and pictures of all it can dra
   CHECK(drawn.report.find("N = 2 000, mean of 2 realizations. haff synthetic.") !=
         std::string::npos);
 
-  // The page shows them all, beside a table of agreement.
+  // The page shows all of them, and a table of agreement.
   CHECK(drawn.report.find("index.html") != std::string::npos);
   const std::string page = contents(made / "index.html");
   CHECK(page.find("src=\"figure-01.svg\"") != std::string::npos);
@@ -65,7 +66,7 @@ TEST_CASE("figures: a small campaign gives tables and pictures of all it can dra
   CHECK(contents(made / "agreement.csv").find("\ntau_c,") != std::string::npos);
 }
 
-TEST_CASE("figures: one realization is drawn too, without errors") {
+TEST_CASE("figures: a single realization is drawn without errors") {
   const TemporaryFolder folder;
   const auto drawn = draw(first_campaign(1), folder.path());
   CHECK(drawn.code == 0);
@@ -81,7 +82,7 @@ TEST_CASE("figures: only those asked for are drawn") {
   CHECK_FALSE(std::filesystem::exists(folder.path() / "index.html"));
 }
 
-TEST_CASE("figures: a figure asked for whose data is missing is named, with a grid that gives it") {
+TEST_CASE("figures: a requested figure without data is named, with a grid that gives the data") {
   const TemporaryFolder folder;
   auto store = schema::Store::in_memory();
   add_finished(store, 0.95, 0.4, 2000, 1, 20);  // does not reach tau_c
@@ -109,7 +110,9 @@ TEST_CASE("figures: boxes are drawn where they lie on both sides of the critical
         std::string::npos);
 }
 
-TEST_CASE("figures: the theory without correlations is the equation's own where it is known") {
+TEST_CASE(
+    "figures: the theory without correlations is the table of direct simulations where it has "
+    "one") {
   const TemporaryFolder folder;
   auto store = schema::Store::in_memory();
   add_finished(store, 0.9, 0.4, 2000, 1, 180);
@@ -152,7 +155,7 @@ TEST_CASE("figures: a general figure is asked for by its name") {
                        doctest::Contains("energy, gamma"), UnknownFigure);
 }
 
-TEST_CASE("figures: files of an earlier run that this store does not make are marked") {
+TEST_CASE("figures: older files that this store does not make are marked") {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "figure-08.svg") << "<svg/>";
   auto store = schema::Store::in_memory();
@@ -165,7 +168,7 @@ TEST_CASE("figures: files of an earlier run that this store does not make are ma
   CHECK(contents(folder.path() / "index.html").find("src=\"figure-08.svg\"") == std::string::npos);
 }
 
-TEST_CASE("figures: an empty store gives none, and says what to plan") {
+TEST_CASE("figures: an empty store gives none, and the message says what to plan") {
   const TemporaryFolder folder;
   const auto drawn = draw(schema::Store::in_memory(), folder.path());
   CHECK(drawn.code == 1);
@@ -179,7 +182,7 @@ TEST_CASE("figures: a number the paper does not have is refused") {
 
 namespace {
 
-// What is drawn where `gnuplot` is this shell script; the true one is $gnuplot.
+// Draws figures with this shell script as `gnuplot`; the real program is $gnuplot.
 Drawn draw_with(const std::string& script, const std::filesystem::path& out,
                 std::vector<int> only = {}) {
   const TemporaryFolder bin;
@@ -213,7 +216,7 @@ TEST_CASE("figures: without gnuplot the tables are written and one message says 
   CHECK(count("apt-get install gnuplot-nox", drawn.report) == 1);
 }
 
-TEST_CASE("figures: a picture that is cut off is not left there, and the rest is drawn") {
+TEST_CASE("figures: an incomplete picture is removed, and the rest is drawn") {
   const TemporaryFolder folder;
   const auto drawn = draw_with(
       R"(cat > "$0.in"; grep -q pngcairo "$0.in" && gnuplot -d "$0.in" | head -c 2000 || gnuplot -d "$0.in")",
@@ -238,7 +241,7 @@ TEST_CASE("figures: a gnuplot that draws nothing, and one without pngcairo, are 
   CHECK(contents(folder / "index.html").find("figure-13.svg") != std::string::npos);
 }
 
-TEST_CASE("figures: a picture of an earlier time does not pass for one that failed") {
+TEST_CASE("figures: an old picture is not taken for one that failed") {
   const TemporaryFolder folder;
   CHECK(draw(first_campaign(), folder.path(), {1}).code == 0);
   CHECK(draw_with("exit 1", folder.path(), {1}).code == 1);

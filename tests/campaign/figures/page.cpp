@@ -31,7 +31,7 @@ std::size_t count(const std::string& word, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("page: what is drawn is shown, what is not is named, and text is escaped") {
+TEST_CASE("page: drawn figures are shown, others are named, and text is escaped") {
   const std::string page = written(
       {.paper = {{.name = "figure-01",
                   .title = "Figure 1: first",
@@ -49,10 +49,10 @@ TEST_CASE("page: what is drawn is shown, what is not is named, and text is escap
   CHECK(page.find("no finished jobs for them: 2 (second)") != std::string::npos);
   CHECK(page.find("1 of 1 claims hold") != std::string::npos);
   CHECK(page.find("All gases") == std::string::npos);
-  CHECK(page.find("http") == std::string::npos);  // nothing from elsewhere
+  CHECK(page.find("http") == std::string::npos);  // nothing is loaded from elsewhere
 }
 
-TEST_CASE("page: a caption appears once, be it beside an SVG or within a PNG") {
+TEST_CASE("page: a caption appears once, beside an SVG or within a PNG") {
   const auto shown = [](const char* picture) {
     return written({.gases = {{.name = "gas-a2",
                                .title = "a2",
@@ -73,7 +73,7 @@ TEST_CASE("page: a broad picture has a row of its own") {
   CHECK(count("style=\"min-width", shown(1160)) == 0);
 }
 
-TEST_CASE("page: what an earlier run has left is marked") {
+TEST_CASE("page: figures of an earlier run are marked") {
   const std::string page = written({.from_before = {"figure-08.svg"}});
   CHECK(page.find("from an earlier run, and not of this store: figure-08.svg") !=
         std::string::npos);

@@ -23,7 +23,7 @@ std::vector<std::string> names(const std::vector<schema::Profile>& points) {
 
 }  // namespace
 
-TEST_CASE("at a time: the values of the last collision before it, at the time asked for") {
+TEST_CASE("at a time: the values after the last collision before it, at the given time") {
   const schema::Job cooling = job(0.8);
   engine::Simulation stopped = gas(cooling), counted = gas(cooling);
   REQUIRE(stopped.run_to(10'000, 2.5));
@@ -43,7 +43,7 @@ TEST_CASE("at a time: the values of the last collision before it, at the time as
   CHECK(counted.time() < 2.5);
 }
 
-TEST_CASE("at a time: nothing is taken, and only what is observed is there") {
+TEST_CASE("at a time: the tally is not taken, and only observables of the job are measured") {
   schema::Job cooling = job(0.8);
   engine::Simulation looked_at = gas(cooling), left_alone = gas(cooling);
   for (double time = 0.5; looked_at.run_to(1000, time); time += 0.5)

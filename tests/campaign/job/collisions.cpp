@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What collisions are like, as profiles of a job: only when they are listed, and in a dilute
-// elastic gas as theory says.
+// Statistics of collisions as profiles of a job: only when they are listed, and as theory says in a
+// dilute elastic gas.
 #include "campaign/job/collisions.hpp"
 
 #include <doctest/doctest.h>
@@ -31,10 +31,10 @@ void run_to(engine::Simulation& gas, const schema::Job& job, double tau) {
 
 }  // namespace
 
-TEST_CASE("collisions: profiles at their times, and of what happened since those before") {
+TEST_CASE("collisions: profiles at their times, of the collisions since the previous profiles") {
   const auto physics = observed_job(0.8, 500);
   auto gas = campaign::gas(physics);
-  CHECK(collision_statistics(gas, physics, 0).empty());  // nothing has happened yet
+  CHECK(collision_statistics(gas, physics, 0).empty());  // no collision has happened yet
   run_to(gas, physics, 5);
   CHECK(collision_statistics(gas, physics, 5).empty());
   run_to(gas, physics, 10);
@@ -48,7 +48,7 @@ TEST_CASE("collisions: profiles at their times, and of what happened since those
     double sum = 0;
     for (std::size_t i = 1; i < profile.x.size(); ++i)
       sum += (profile.x[i] - profile.x[i - 1]) * (profile.value[i] + profile.value[i - 1]) / 2;
-    CHECK(sum == doctest::Approx(1).epsilon(0.05));  // but for the ends
+    CHECK(sum == doctest::Approx(1).epsilon(0.05));  // except for the ends
   }
   CHECK(collision_statistics(gas, physics, 10).empty());  // they have been taken
 }
@@ -61,9 +61,9 @@ TEST_CASE("collisions: a job that does not list them does not count them") {
   CHECK(collision_statistics(gas, physics, 10).empty());
 }
 
-TEST_CASE("collisions: free times of a dilute elastic gas are no exponential") {
-  // 2 10^5 flights. Chi^2 over 50 bins, up to u = 5: within 1 +- 5 sqrt(2/50), false alarm in one
-  // of 10^5 seeds, for flights that are independent. An exponential is refused by the same measure.
+TEST_CASE("collisions: free times of a dilute elastic gas are not exponential") {
+  // 2 10^5 flights. Chi^2 over 50 bins, up to u = 5, is within 1 +- 5 sqrt(2/50): a false alarm in
+  // one of 10^5 seeds, if flights are independent. The same test refuses an exponential.
   for (const int d : {2, 3}) {
     CAPTURE(d);
     auto physics = observed_job(1, 2000);

@@ -34,7 +34,7 @@ schema::Job job(double n, std::uint32_t particles, std::vector<std::string> obse
   return job;
 }
 
-// A gas that is followed as an attempt follows it.
+// A gas that is followed in the same way as in an attempt.
 struct Followed {
   Followed(const schema::Job& its_job, const engine::State& state, unsigned threads = 1)
       : job(its_job),
@@ -83,7 +83,8 @@ TEST_CASE("diffusion: without msd and vacf the gas is not looked at") {
 }
 
 TEST_CASE("diffusion: free flight before collisions") {
-  // Of 2000 particles 20 have collided by tau = 0.01: they have lost 2/3 of a part of it at most.
+  // By tau = 0.01, 20 of the 2000 particles have collided, and have lost at most 2/3 of part of
+  // their displacement.
   auto dilute = job(0.01, 2000, {"msd", "vacf"});
   dilute.sample_every = 0.01;
   Followed followed(dilute, start_of(dilute));
@@ -94,8 +95,8 @@ TEST_CASE("diffusion: free flight before collisions") {
   CHECK(value_of(points, "vacf", 0) == Approx(1).epsilon(0.01));
 }
 
-TEST_CASE("diffusion: how often the gas is looked at changes no bit") {
-  // Also where velocities change between collisions.
+TEST_CASE("diffusion: the number of observations changes no bit") {
+  // This holds also where velocities change between collisions.
   for (const char* effects :
        {"{}", R"({"shuffle":{"every":1}})", R"({"thermostat":{"rate":0.05}})"}) {
     CAPTURE(effects);
@@ -133,15 +134,15 @@ TEST_CASE("diffusion: a checkpoint carries images and waiting times to the last 
   Followed resumed(physics, decode(encode(stored)));
   for (const double tau : {11.0, 12.0, 40.0}) {
     const auto points = whole.sample_at(tau);
-    CHECK(points.size() == 5);  // two of each msd, and a vacf
+    CHECK(points.size() == 5);  // two from each msd, and one from the vacf
     CHECK(resumed.sample_at(tau) == points);
   }
 }
 
 TEST_CASE("diffusion: a dilute elastic gas diffuses as Enskog's theory says") {
   // 4000 particles: a mean square displacement is known to sqrt(2/(3N)) = 1.3 %, its slope between
-  // tau = 5 and 20 to about 1.5 %. Within 7 %, 4.5 standard errors: false alarm in one of 10^5
-  // seeds. The theory errs by less than 1 % at n = 0.01.
+  // tau = 5 and 20 to about 1.5 %. Within 7 %, 4.5 standard errors: a false alarm in one of 10^5
+  // seeds. The error of the theory is below 1 % at n = 0.01.
   const auto physics = job(0.01, 4000, {"msd@5", "vacf@5"});
   Followed followed(physics, start_of(physics));
   followed.sample_at(5);
@@ -152,10 +153,11 @@ TEST_CASE("diffusion: a dilute elastic gas diffuses as Enskog's theory says") {
   CHECK(value_of(late, "diffusion", 5) == Approx(slope).epsilon(1e-12));
 }
 
-TEST_CASE("diffusion: a dense elastic gas diffuses as simulations have it") {
-  // A sixth more than Enskog's theory. The standard error is that of the dilute gas, 1.5 %; the
-  // published D is that of a large gas, less 2.837 T/(6 pi eta L) in this one (self_diffusion.hpp).
-  // Within 7 %: false alarm in one of 10^5 seeds; Enskog's D is off by 12 %.
+TEST_CASE("diffusion: a dense elastic gas diffuses as in published simulations") {
+  // This is a sixth more than in Enskog's theory. The standard error is that of the dilute gas,
+  // 1.5 %; the published D is that of a large gas, here reduced by 2.837 T/(6 pi eta L)
+  // (self_diffusion.hpp). Within 7 %: a false alarm in one of 10^5 seeds; Enskog's D would be off
+  // by 12 %.
   const double n = 0.4;
   const auto physics = job(n, 4000, {"msd@20"});
   Followed followed(physics, start_of(physics));
@@ -171,8 +173,8 @@ TEST_CASE("diffusion: a dense elastic gas diffuses as simulations have it") {
   CHECK(slope == Approx(expected).epsilon(0.07));
 }
 
-TEST_CASE("diffusion: velocities are forgotten as Enskog's theory says") {
-  // Within 5/sqrt(3N) = 0.046: false alarm in one of 10^6 seeds.
+TEST_CASE("diffusion: velocities decorrelate as in Enskog's theory") {
+  // Within 5/sqrt(3N) = 0.046: a false alarm in one of 10^6 seeds.
   const auto physics = job(0.01, 4000, {"vacf@5"});
   Followed followed(physics, start_of(physics));
   followed.sample_at(5);

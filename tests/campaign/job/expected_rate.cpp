@@ -30,11 +30,13 @@ TEST_CASE("expected rate: a mixture of two equal species is a gas of one") {
         Approx(alone).epsilon(1e-12));
 }
 
-TEST_CASE("expected rate: a mixture may have more particles in a volume than equal spheres can") {
-  // pi/6 n is above 1; with most particles small, 0.31 of the box is filled. Nearly all of them are
-  // small: as they alone in units of their own diameter and mass, n 0.4^3 = 0.192.
+TEST_CASE("expected rate: a mixture may have more particles in a volume than equal spheres") {
+  // pi/6 n is above 1, but most particles are small, and 0.31 of the box is filled. Nearly all
+  // particles are small, so the rate is that of small particles alone, with n 0.4^3 = 0.192 in
+  // units of their own diameter and mass.
   const double rate = campaign::expected_collision_rate(
       gas(3, R"({"mixture":{"diameter_ratio":0.4,"fraction":0.999,"mass_ratio":0.064}})"), 1);
   const double small = analysis::transport(0.192, 1 / 0.064, 3).collision_rate / 0.4;
-  CHECK(rate == Approx(small).epsilon(0.02));  // one in a thousand is large, with 20 times as many
+  // One particle in a thousand is large, and has 20 times as many collisions.
+  CHECK(rate == Approx(small).epsilon(0.02));
 }

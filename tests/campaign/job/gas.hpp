@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A small gas of the tests of what a job measures, and the job that it belongs to.
+// A small gas for the tests of measurements, and the job that it belongs to.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ inline schema::Job job(double e, std::uint32_t particles = 1000) {
   return job;
 }
 
-// At its start, with the effects of the job.
+// The gas at its start, with the effects of the job.
 inline engine::Simulation gas(const schema::Job& job) {
   const engine::Model model = model_of(job);
   return engine::Simulation(

@@ -36,7 +36,7 @@ TEST_CASE("measurement: rates follow from two samples") {
   CHECK(*second.gamma_ratio == doctest::Approx(std::log(*first.temperature / *second.temperature) /
                                                (2 * analysis::gamma0(0.8) * 2)));
   CHECK(*second.collision_rate == doctest::Approx(2 / second.time));
-  // Between the ideal gas and a generous bound on the excess.
+  // The pressure is between that of the ideal gas and a generous upper bound.
   CHECK(*second.pressure > 0.4 * *second.temperature);
   CHECK(*second.pressure < 10 * 0.4 * *first.temperature);
 }
@@ -51,7 +51,7 @@ TEST_CASE("measurement: an elastic gas has no gamma_ratio") {
   CHECK(second.collision_rate);
 }
 
-TEST_CASE("measurement: what is not asked for is not measured") {
+TEST_CASE("measurement: observables that are not listed are not measured") {
   auto physics = job(0.8);
   physics.observables = {"temperature"};
   auto gas = campaign::gas(physics);
@@ -68,7 +68,7 @@ TEST_CASE("measurement: two samples at one instant have no rates between them") 
   CHECK_FALSE(second.pressure);
 }
 
-TEST_CASE("measurement: temperature in true units however far the gas has cooled") {
+TEST_CASE("measurement: the temperature is in true units, however far the gas has cooled") {
   const auto physics = job(0.5, 108);
   auto gas = campaign::gas(physics);
   gas.run_to(engine::collisions_at(300, physics.particles));
@@ -78,9 +78,9 @@ TEST_CASE("measurement: temperature in true units however far the gas has cooled
   CHECK(*sample.temperature == scaled * std::exp2(-2 * gas.exponent()));
 }
 
-TEST_CASE("measurement: tau_c and its time between two samples") {
-  // T = 2/3 exp(-tau/10), slower than Haff's law at e = 0.8, 2 gamma_0 = 0.12:
-  // T/T_Haff = exp(tau/50) = 2 at tau = 50 ln 2 = 34.66. Time grows linearly here.
+TEST_CASE("measurement: tau_c and its time may lie between two samples") {
+  // T = 2/3 exp(-tau/10) is slower than Haff's law at e = 0.8, 2 gamma_0 = 0.12:
+  // T/T_Haff = exp(tau/50) = 2 at tau = 50 ln 2 = 34.66. Time is linear in tau here.
   std::vector<schema::Sample> samples;
   for (int tau = 0; tau <= 50; ++tau)
     samples.push_back(
@@ -90,7 +90,7 @@ TEST_CASE("measurement: tau_c and its time between two samples") {
   CHECK(*found.time_c == doctest::Approx(150 * std::log(2)).epsilon(1e-12));
 }
 
-TEST_CASE("measurement: no tau_c before it is reached, nor for an elastic gas") {
+TEST_CASE("measurement: there is no tau_c before it is reached, nor for an elastic gas") {
   std::vector<schema::Sample> samples;
   for (int tau = 0; tau <= 5; ++tau)
     samples.push_back({.tau = 1.0 * tau, .time = 1.0 * tau, .temperature = 2.0 / 3});
@@ -98,7 +98,7 @@ TEST_CASE("measurement: no tau_c before it is reached, nor for an elastic gas") 
   CHECK_FALSE(results({samples.front()}, job(0.8)).tau_c);
 }
 
-TEST_CASE("measurement: a Gaussian gas is in equilibrium, another is not") {
+TEST_CASE("measurement: a Gaussian gas is in equilibrium, and another is not") {
   const auto physics = job(1, 4000);
   schema::Sample sample{.a2 = 0.0, .a3 = 0.0, .a4 = 0.0};
   CHECK(is_equilibrated(sample, physics));
@@ -108,13 +108,13 @@ TEST_CASE("measurement: a Gaussian gas is in equilibrium, another is not") {
   CHECK_FALSE(is_equilibrated(sample, physics));
 }
 
-TEST_CASE("measurement: no column depends on how often samples are taken") {
-  // What is of the moment is the same in every bit, rates over an interval are sums over it. The
-  // time average of the pressure of the rows of every tau is that of the rows of every 5, or 10:
-  // the collisional part is a sum, the kinetic part is off by the fourth power of the interval. The
-  // trapezoidal rule would be off by 1.9 % and 7.8 %.
+TEST_CASE("measurement: no column depends on the interval between samples") {
+  // Values at a moment are the same in every bit; rates over an interval are sums over it. The time
+  // average of the pressure is the same from the rows of every tau, every 5 or every 10: the
+  // collisional part is a sum, and the error of the kinetic part is of the fourth power of the
+  // interval. The trapezoidal rule would be off by 1.9 % and 7.8 %.
   auto physics = job(0.8, 4000);
-  // From elastic equilibrium: while a lattice melts, no smooth curve is to be found.
+  // The start is elastic equilibrium: while a lattice melts, no curve is smooth.
   auto elastic = campaign::gas(job(1, 4000));
   elastic.run_to(engine::collisions_at(20, physics.particles));
   const engine::State start = engine::restarted(elastic.state());
@@ -128,7 +128,7 @@ TEST_CASE("measurement: no column depends on how often samples are taken") {
     return rows;
   };
   const auto fine = taken(1);
-  // A mean over the rows of every tau within an interval, weighted with their time or their tau.
+  // The mean over the rows of every tau within an interval, weighted by time or by tau.
   const auto mean_of_fine = [&](auto value, auto clock, double from, double to) {
     double sum = 0, length = 0;
     for (std::size_t k = 1; k < fine.size(); ++k) {
@@ -139,11 +139,11 @@ TEST_CASE("measurement: no column depends on how often samples are taken") {
     }
     return sum / length;
   };
-  // What fluctuates between the ends of an interval is not to be known: ln T wanders by 0.12 per
-  // collision and particle times the scatter of the loss, which is as large as the loss itself in
-  // each of N/2 collisions. A bridge of that walk has a mean within sqrt(interval/12) of it.
+  // Fluctuations between the ends of an interval are not known: per collision and particle, ln T
+  // wanders by 0.12 times the scatter of the loss, which is as large as the loss itself in each of
+  // N/2 collisions. The mean of a bridge of that walk is within sqrt(interval/12) of it.
   const double walk = 0.12 / std::sqrt(physics.particles / 2.0);
-  constexpr double rounding = 1e-12;  // of sums of ten terms, and of logarithms of T
+  constexpr double rounding = 1e-12;  // in sums of ten terms, and in logarithms of T
   for (const double every : {5.0, 10.0}) {
     const double tolerance = 4 * walk * std::sqrt(every / 12);  // 0.7 % and 1.0 %
     const auto coarse = taken(every);
@@ -166,7 +166,7 @@ TEST_CASE("measurement: no column depends on how often samples are taken") {
   }
 }
 
-TEST_CASE("measurement: rough spheres have a temperature of rotation, no tau_c") {
+TEST_CASE("measurement: rough spheres have a temperature of rotation, but no tau_c") {
   auto physics = job(0.8);
   physics.effects = R"({"roughness":{"beta":0.5,"q":0.4}})";
   engine::Simulation gas(model_of(physics), engine::initial_state(0.4, physics.particles, 1));
@@ -184,7 +184,7 @@ TEST_CASE("measurement: rough spheres have a temperature of rotation, no tau_c")
   CHECK_FALSE(measure(smooth, job(0.8), 0, {}).rotational_temperature);
 }
 
-TEST_CASE("measurement: rough disks turn about one axis") {
+TEST_CASE("measurement: rough disks rotate about one axis") {
   auto physics = job(0.8);
   physics.d = 2;
   physics.effects = R"({"roughness":{"beta":0.5,"q":0.5}})";
@@ -195,7 +195,7 @@ TEST_CASE("measurement: rough disks turn about one axis") {
         doctest::Approx(std::ldexp(*gas.rotational_energy(), -2 * gas.exponent()) * 2));
 }
 
-TEST_CASE("measurement: a mixture has the temperatures of its species, and of all") {
+TEST_CASE("measurement: a mixture has the temperatures of its species, and one of all particles") {
   auto physics = job(1);
   physics.effects = R"({"mixture":{"diameter_ratio":0.5,"fraction":0.3,"mass_ratio":0.1}})";
   const auto model = model_of(physics);
@@ -205,7 +205,7 @@ TEST_CASE("measurement: a mixture has the temperatures of its species, and of al
   CHECK(*sample.temperature == doctest::Approx(2.0 / 3).epsilon(1e-12));
   CHECK(0.7 * *sample.temperature_1 + 0.3 * *sample.temperature_2 ==
         doctest::Approx(*sample.temperature).epsilon(1e-12));
-  // Of 300 particles in equilibrium, four standard errors sqrt(2/900).
+  // 300 particles in equilibrium: four standard errors sqrt(2/900).
   CHECK(std::abs(*sample.temperature_2 * 1.5 - 1) < 4 * std::sqrt(2.0 / 900));
   CHECK(std::abs(*sample.a2) < 4 * analysis::laguerre_noise(2, physics.particles));
 }

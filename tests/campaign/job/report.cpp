@@ -9,7 +9,7 @@
 
 using namespace haff::campaign;
 
-TEST_CASE("report: progress comes through") {
+TEST_CASE("report: progress is sent and read") {
   const auto line = to_line(ProgressReport{7, "cooling e=0.8", 12.5, 90, 1.25e6});
   const auto report = report_from_line(line);
   REQUIRE(report);
@@ -32,13 +32,13 @@ TEST_CASE("report: a log message with quotes and line ends is one line") {
   CHECK(std::get<LogReport>(*report).job_id == 7);
 }
 
-TEST_CASE("report: idle comes through") {
+TEST_CASE("report: an idle report is sent and read") {
   const auto report = report_from_line(to_line(IdleReport{}));
   REQUIRE(report);
   CHECK(std::holds_alternative<IdleReport>(*report));
 }
 
-TEST_CASE("report: a torn line is none") {
+TEST_CASE("report: an incomplete line is ignored") {
   CHECK_FALSE(report_from_line("{\"job_id\": 7, \"jo"));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A job's share of the processors, and rows that do not depend on it.
+// A job's share of the processors, and rows that do not depend on this share.
 #include "campaign/job/thread_share.hpp"
 
 #include <doctest/doctest.h>
@@ -35,10 +35,10 @@ struct Rows {
   bool operator==(const Rows&) const = default;
 };
 
-// Of a cooling gas whose number of threads changes at each of its checkpoints.
+// The rows of a cooling gas whose number of threads changes at each of its checkpoints.
 Rows rows_with(const std::vector<unsigned>& threads) {
-  // Disks that have room for four slabs: on a busy machine, threads that wait for each other do so
-  // for long.
+  // Disks in a box with room for four slabs. The job is small: on a busy machine, threads wait for
+  // each other for a long time.
   schema::Job cooling = job(500);
   cooling.d = 2;
   cooling.equilibrate = 10;
@@ -56,14 +56,16 @@ Rows rows_with(const std::vector<unsigned>& threads) {
     REQUIRE(ending == Ending::finished);
   }
   close(nowhere);
-  if (threads.size() > 1) CHECK(asked == 5);  // at two beginnings, and at tau = 10, 20 and 30
+  if (threads.size() > 1) CHECK(asked == 5);  // at the two beginnings, and at tau = 10, 20 and 30
   const std::int64_t job_id = *store.find(cooling);
   return {store.samples(job_id), store.profiles(job_id, "msd")};
 }
 
 }  // namespace
 
-TEST_CASE("thread share: processors are shared out among large jobs, and a few fit a small box") {
+TEST_CASE(
+    "thread share: processors are shared out among large jobs, and a small box has room for few "
+    "threads") {
   const ThreadShare share{.processors = 8};
   const schema::Job large = job(4'000'000);
   CHECK(threads_for(large, share, 1) == 8);
@@ -76,7 +78,7 @@ TEST_CASE("thread share: processors are shared out among large jobs, and a few f
   CHECK(threads_for(job(1000), share, 1) == 1);
 }
 
-TEST_CASE("thread share: a job that counts collisions has no use for several") {
+TEST_CASE("thread share: a job that counts collisions has one thread") {
   schema::Job counting = job(4'000'000);
   counting.observables = {"collision_statistics"};
   CHECK(threads_for(counting, {.processors = 8}, 1) == 1);

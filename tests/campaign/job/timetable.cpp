@@ -39,21 +39,21 @@ TEST_CASE("timetable: samples from 0 to tau_max") {
         std::vector<double>{0, 4, 8, 12});
 }
 
-TEST_CASE("timetable: a last sample that rounding puts above tau_max is one") {
+TEST_CASE("timetable: a last sample that rounding puts above tau_max is taken") {
   CHECK(sample_count(0.1, 0.3) == 4);  // 3 * 0.1 > 0.3
   CHECK(sample_count(0.1, 90) == 901);
   CHECK(sample_count(1, 90) == 91);
   CHECK(sample_count(7, 6) == 1);
 }
 
-TEST_CASE("timetable: the synchronization at or after a tau") {
+TEST_CASE("timetable: the number of the synchronization at or after a tau") {
   CHECK(synchronization_at_or_after(0) == 0);
   CHECK(synchronization_at_or_after(1) == 1);
   CHECK(synchronization_at_or_after(10) == 1);
   CHECK(synchronization_at_or_after(10.5) == 2);
 }
 
-TEST_CASE("timetable: every synchronization up to the last sample") {
+TEST_CASE("timetable: it has every synchronization up to the last sample") {
   CHECK(taus(all(Timetable(job(5), 34, 10)), Stop::Due::synchronization) ==
         std::vector<double>{10, 20, 30});
 }
@@ -82,7 +82,7 @@ TEST_CASE("timetable: the last synchronization before the end is kept") {
         std::vector<double>{40});
 }
 
-TEST_CASE("timetable: a stored state has behind it what came up to its collisions") {
+TEST_CASE("timetable: a stored state is past all events up to its number of collisions") {
   Timetable timetable(job(5), 30, 10);
   timetable.skip_through(500);  // tau = 10
   const auto stops = all(timetable);
@@ -121,7 +121,7 @@ TEST_CASE("timetable: a moment that is the collision of another sample is left o
         sample_count(decades, 20));
 }
 
-TEST_CASE("timetable: rounding makes no second sample of one moment") {
+TEST_CASE("timetable: rounding does not make a second sample at one moment") {
   schema::Job tenth = job(0.1);
   tenth.sample_at.tau.listed = {0.3};  // 3 * 0.1 > 0.3
   CHECK(taus(all(Timetable(tenth, 0.4, 10)), Stop::Due::sample) ==
@@ -160,7 +160,7 @@ TEST_CASE("timetable: profiles and fields are not taken at moments of sample_at"
   CHECK_FALSE(has_fields(profiled, 9.8));
 }
 
-TEST_CASE("timetable: moments until a time beyond all numbers are counted, and none is no moment") {
+TEST_CASE("timetable: moments up to an infinite time are counted, also if there are none") {
   constexpr double never = std::numeric_limits<double>::infinity();
   CHECK(count_through({}, never) == 0);
   CHECK(count_through({.listed = {1, 2}}, never) == 2);

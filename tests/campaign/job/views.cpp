@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Curves and fields of a gas, each only when it is asked for.
+// Profiles and fields of a gas, each only when it is asked for.
 #include "campaign/job/views.hpp"
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ std::vector<std::string> names(const Views& views) {
 
 }  // namespace
 
-TEST_CASE("views: profiles and fields at their times, and no others") {
+TEST_CASE("views: profiles and fields are taken at their times, and at no others") {
   const auto physics = job_with_views();
   const auto gas = campaign::gas(physics);
   schema::Sample sample{.tau = 10};
@@ -62,7 +62,7 @@ TEST_CASE("views: a profile that is not listed is not taken") {
   CHECK_FALSE(sample.correlation_trace);
 }
 
-TEST_CASE("views: fields in true units however far the gas has cooled") {
+TEST_CASE("views: fields are in true units, however far the gas has cooled") {
   auto physics = job_with_views();
   physics.e = 0.5;
   physics.particles = 500;
@@ -77,7 +77,7 @@ TEST_CASE("views: fields in true units however far the gas has cooled") {
     return *std::find_if(views.fields.begin(), views.fields.end(),
                          [&](const auto& field) { return field.name == name; });
   };
-  // Energy of the flow and of what moves within the cells is that of the gas:
+  // The energy of the flow and of the motion within the cells is that of the gas:
   // d T = sum_r N_r (u^2 + d T_L (N_r - 1) / N_r) / N.
   const auto density = named("density"), u = named("velocity"), T = named("temperature");
   const double volume = std::pow(density.box / density.cells, 3);
@@ -92,7 +92,7 @@ TEST_CASE("views: fields in true units however far the gas has cooled") {
         doctest::Approx(3 * *sample.temperature).epsilon(1e-12));
 }
 
-TEST_CASE("views: every observable that looks at the whole gas, in the order of the table") {
+TEST_CASE("views: every observable of the whole gas is taken, in the order of the table") {
   auto physics = job(0.8, 4000);
   physics.observables = {"cluster_sizes", "energy_spectrum", "pair_distribution", "tail"};
   physics.profiles_every = 10;
@@ -107,7 +107,8 @@ TEST_CASE("views: every observable that looks at the whole gas, in the order of 
   CHECK(Names(taken.begin() + 1, taken.end()) == fixed);
 }
 
-TEST_CASE("views: of a mixture each pair of species, and temperatures by mass") {
+TEST_CASE(
+    "views: a mixture has profiles for each pair of species, and temperatures weighted by mass") {
   auto physics = job(1, 2000);
   physics.n = 0.2;
   physics.effects = R"({"mixture":{"diameter_ratio":0.5,"fraction":0.5,"mass_ratio":0.1}})";
@@ -125,14 +126,14 @@ TEST_CASE("views: of a mixture each pair of species, and temperatures by mass") 
   CHECK(profile("g_11").x.front() == 1);
   CHECK(profile("g_12").x.front() == 0.75);
   CHECK(profile("g_22").x.front() == 0.5);
-  // All pairs are pairs of two species, so partial structure factors add up to the whole.
+  // Every pair is one of two species, so partial structure factors add up to the whole.
   const auto S = profile("S"), one = profile("S_11"), cross = profile("S_12"),
              two = profile("S_22");
   for (std::size_t i = 0; i < S.value.size(); ++i)
     CHECK(one.value[i] + 2 * cross.value[i] + two.value[i] ==
           doctest::Approx(S.value[i]).epsilon(1e-12));
-  // In equilibrium rho(0) = 1 if speeds are weighed by mass, and 3 or more if they are not. The
-  // first bins to c = 0.5 hold 5 % of 2000 particles: within 5 standard errors.
+  // In equilibrium rho(0) = 1 if speeds are weighted by mass, and 3 or more if they are not. The
+  // first bins up to c = 0.5 hold 5 % of 2000 particles: within 5 standard errors.
   const auto rho = profile("rho");
   CHECK(rho.value[4] == doctest::Approx(std::exp(-0.45 * 0.45)).epsilon(0.5));
   CHECK(sample.correlation_trace);

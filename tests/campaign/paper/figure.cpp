@@ -28,11 +28,11 @@ TEST_CASE("figures: a damaged field ends figure 8 alone") {
   CHECK_THROWS_WITH(figure_08(averages), doctest::Contains("damaged"));
 }
 
-TEST_CASE("figure 3: of a Gaussian gas the ratio is one, also where a bin is wide") {
+TEST_CASE("figure 3: the ratio of a Gaussian gas is one, also where a bin is wide") {
   MeanSeries gas{.e = 0.8, .n = 0.4, .particles = 1'000'000'000, .realizations = {1}, .tau = {0}};
   MeanProfile rho{.name = "rho", .realizations = 1};
   for (int bin = 0; bin < analysis::speed_bins; ++bin) {
-    // The mean of exp(-c^2) over a shell, by many thin ones.
+    // The mean of exp(-c^2) over a shell, from many thin shells.
     constexpr int parts = 1000;
     double sum = 0, volume = 0;
     for (int part = 0; part < parts; ++part) {
@@ -61,15 +61,15 @@ TEST_CASE("figure 11: a decay rate belongs to the middle of its interval") {
   REQUIRE(plot);
   const Curve& measured = plot->panels.front().curves.front();
   REQUIRE(measured.source == Source::measured);
-  CHECK(measured.x[0] == 1);  // of the sample at tau = 2
-  CHECK(measured.x[1] == 4);  // of those at 4 and 6, which are the time from 2 to 6
+  CHECK(measured.x[0] == 1);  // from the sample at tau = 2
+  CHECK(measured.x[1] == 4);  // from those at 4 and 6, for the interval from 2 to 6
 }
 
-TEST_CASE("figure 13: where E - E_Haff meets E_Haff is tau_c") {
+TEST_CASE("figure 13: E - E_Haff meets E_Haff at tau_c") {
   const auto plot = figure_13(read_averages(first_campaign()));
   REQUIRE(plot);
   const auto& curves = plot->panels.front().curves;
-  const Curve& haff = curves[0];    // of e = 0.80
+  const Curve& haff = curves[0];    // at e = 0.80
   const Curve& theory = curves[4];  // after two of Haff and two measured
   REQUIRE(theory.source == Source::theory);
   double crossing = 0;
@@ -91,7 +91,7 @@ TEST_CASE("captions: gases of the same size and number of realizations are named
         "realization.");
 }
 
-TEST_CASE("captions: of densities the restitution is common; what is missing is said") {
+TEST_CASE("captions: gases of several densities share e, and missing data are named") {
   std::vector<MeanSeries> series(2);
   series[0] = {
       .e = 0.85, .n = 0.05, .particles = 1000, .realizations = {3, 3, 2}, .tau = {0, 1, 2}};
@@ -103,7 +103,7 @@ TEST_CASE("captions: of densities the restitution is common; what is missing is 
         "1 000, mean of 3 realizations (1 planned not done). haff 0.1.0 (1a2b).");
 }
 
-TEST_CASE("figures 4 and 5: no further than half of the realizations go") {
+TEST_CASE("figures 4 and 5: curves end where fewer than half of the realizations go on") {
   const MeanSeries gas{.e = 0.9,
                        .n = 0.4,
                        .particles = 1000,
@@ -142,7 +142,7 @@ TEST_CASE("figure 14: every shuffled series is a curve of its own") {
   const auto plot = figure_14(averages);
   REQUIRE(plot);
   const auto& curves = plot->panels.front().curves;
-  REQUIRE(curves.size() == 5);  // with the theory and its first order
+  REQUIRE(curves.size() == 5);  // including the theory and its first order
   CHECK(curves[0].name == "not shuffled");
   CHECK(curves[1].name == "shuffled every 1");
   CHECK(curves[2].name == "shuffled every 5");

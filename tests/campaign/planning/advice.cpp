@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a plan points out: values that differ by rounding, and gases that are computed again.
+// Advice on a plan: values that differ by rounding, and gases that are computed twice.
 #include "campaign/planning/advice.hpp"
 
 #include <doctest/doctest.h>
@@ -36,7 +36,7 @@ TEST_CASE("advice: a value within 1e-9 of one in the store is pointed out") {
   CHECK(near_twins({{.job = cooling(0.8499999999)}}, known).size() == 1);
 }
 
-TEST_CASE("advice: other observables of a gas that has run compute it a second time") {
+TEST_CASE("advice: other observables of a finished gas would compute it a second time") {
   schema::Job more = cooling(0.85);
   more.observables = {"laguerre", "temperature"};
   CHECK(recomputed({{.job = more}}, {done(cooling(0.85))}) == 1);

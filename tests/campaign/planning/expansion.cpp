@@ -53,14 +53,14 @@ TEST_CASE("expansion: every cooling job's equilibration is there") {
     CHECK(known.contains(identity(equilibration_of(planned.job))));
 }
 
-TEST_CASE("expansion: no job twice") {
+TEST_CASE("expansion: no job is made twice") {
   const auto jobs = jobs_of(R"({"e": 0.8, "n": 0.4, "N": 500,
       "grids": [{"seeds": 3, "tau_max": 20}, {"seeds": 5, "tau_max": 20}]})");
   CHECK(identities(jobs).size() == jobs.size());
   CHECK(only(cooling, jobs).size() == 5);
 }
 
-TEST_CASE("expansion: of a job named twice, the larger tau_max and the closer checkpoints") {
+TEST_CASE("expansion: a job named twice gets the larger tau_max and the closer checkpoints") {
   const auto jobs = only(cooling, jobs_of(R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 1, "grids": [
       {"tau_max": 30, "checkpoint_every": 40}, {"tau_max": 20, "checkpoint_every": 10}]})"));
   REQUIRE(jobs.size() == 1);
@@ -68,14 +68,14 @@ TEST_CASE("expansion: of a job named twice, the larger tau_max and the closer ch
   CHECK(jobs.front().checkpoint_every == 10);
 }
 
-TEST_CASE("expansion: tau_max of each e") {
+TEST_CASE("expansion: each e has its tau_max") {
   for (const schema::Planned& planned :
        only(cooling, jobs_of(R"({"e": [0.8, 0.9], "n": 0.4, "N": 500, "seeds": 2,
                                  "tau_max": {"0.80": 90, "0.9": 180}})")))
     CHECK(planned.tau_max == (planned.job.e == 0.8 ? 90 : 180));
 }
 
-TEST_CASE("expansion: what is not physics does not change a job") {
+TEST_CASE("expansion: keys that are not physics do not change a job") {
   const auto few = jobs_of(R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 20})");
   const auto more = jobs_of(R"({"name": "other", "e": 0.8, "n": 0.4, "N": 500, "seeds": [1],
                                 "tau_max": 90, "checkpoint_every": 20})");

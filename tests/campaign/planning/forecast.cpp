@@ -29,7 +29,7 @@ schema::Job with_effects(std::string effects) {
   return job;
 }
 
-// A job that is done, and took so long for each collision.
+// A job that is done, and took this long per collision.
 schema::JobRow known(const schema::Job& job, double seconds_per_collision) {
   schema::JobRow row;
   row.job = job;
@@ -38,7 +38,7 @@ schema::JobRow known(const schema::Job& job, double seconds_per_collision) {
   return row;
 }
 
-// By the store alone, nothing where it would have to be tried out.
+// The speed known from the store alone; nothing where a trial would be needed.
 std::optional<double> seconds_per_collision(const std::vector<schema::JobRow>& rows,
                                             const schema::Job& job) {
   Forecast forecast(rows);
@@ -57,7 +57,7 @@ TEST_CASE("forecast: jobs that differ in effects have speeds of their own") {
   CHECK_FALSE(seconds_per_collision(rows, with_effects(R"({"thermostat":{"rate":0.1}})")));
 }
 
-TEST_CASE("forecast: jobs that differ in what is measured, and how often, as well") {
+TEST_CASE("forecast: jobs that differ in observables or in intervals have speeds of their own") {
   const schema::Job seldom = small_gas();
   schema::Job often = seldom, profiles = seldom;
   often.sample_every = 0.05;
@@ -69,7 +69,7 @@ TEST_CASE("forecast: jobs that differ in what is measured, and how often, as wel
   CHECK_FALSE(seconds_per_collision(rows, profiles));
 }
 
-TEST_CASE("forecast: realizations share a speed, whatever they began from") {
+TEST_CASE("forecast: realizations share a speed, whatever their start") {
   schema::Job other = small_gas();
   other.seed = 2;
   other.equilibrate = 100;
@@ -77,27 +77,27 @@ TEST_CASE("forecast: realizations share a speed, whatever they began from") {
   CHECK(*seconds_per_collision(rows, other) == doctest::Approx(2));
 }
 
-TEST_CASE("forecast: the same e counts, and any other where there is none") {
+TEST_CASE("forecast: jobs of the same e count, and those of another e where there are none") {
   const std::vector rows{known(small_gas(0.9), 1), known(small_gas(0.8), 3)};
   CHECK(*seconds_per_collision(rows, small_gas(0.8)) == doctest::Approx(3));
   CHECK(*seconds_per_collision(rows, small_gas(0.7)) == doctest::Approx(2));
 }
 
-TEST_CASE("forecast: equilibrations are alike whatever effects the cooling has") {
+TEST_CASE("forecast: equilibrations have one speed, whatever effects the cooling has") {
   const auto plain = schema::equilibration_of(small_gas());
   const auto shuffled = schema::equilibration_of(with_effects(R"({"shuffle":{"every":1.0}})"));
   CHECK(*seconds_per_collision({known(plain, 1)}, shuffled) == doctest::Approx(1));
   CHECK_FALSE(seconds_per_collision({known(plain, 1)}, small_gas()));
 }
 
-TEST_CASE("forecast: what the store has hardly run is tried out") {
+TEST_CASE("forecast: a gas that the store has hardly run is tried out") {
   CHECK_FALSE(seconds_per_collision({known(small_gas(), 1e-8)}, small_gas()));
-  schema::JobRow begun = known(small_gas(), 1);  // a large gas takes long to start
+  schema::JobRow begun = known(small_gas(), 1);  // a large gas takes a long time to start
   begun.progress.collisions = 0;
   CHECK_FALSE(seconds_per_collision({begun}, small_gas()));
 }
 
-TEST_CASE("calibration: a trial prices all that a job does, and nothing else") {
+TEST_CASE("calibration: a trial includes all costs of a job and no others") {
   schema::Job job = small_gas();
   const Prices plain = campaign::try_out(job, tau_max, 0.01);
   for (const double price :

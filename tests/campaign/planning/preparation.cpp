@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Which gases can be prepared, and what is expected in place of the others.
+// Gases that can be prepared, and the message for those that cannot.
 #include "campaign/planning/preparation.hpp"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,8 @@ schema::Preparation disks(double n, std::uint32_t particles) {
 
 }  // namespace
 
-TEST_CASE("preparation: what neither a lattice nor growth can do is refused with the nearest N") {
+TEST_CASE(
+    "preparation: a gas that neither a lattice nor growth can make is refused with the nearest N") {
   CHECK(why_not_prepared(disks(1.1, 31)).value() ==
         "disks at n = 1.1 fill 0.86 of their box: no lattice holds them, and disks that grow from "
         "random points jam before; expected N = 30 or 54, which fill a lattice, or a smaller n");
@@ -36,8 +37,8 @@ TEST_CASE("preparation: what neither a lattice nor growth can do is refused with
   CHECK_FALSE(why_not_prepared({3, 1.3, 501, 0.07, true}));
 }
 
-TEST_CASE("preparation: what is let pass can be grown") {
-  // The densest ones, without a lattice, of several sizes.
+TEST_CASE("preparation: gases that are accepted can be grown") {
+  // The densest gases without a lattice, of several sizes.
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     CHECK_FALSE(why_not_prepared(spheres(1.2, 501)));
     CHECK_NOTHROW(engine::initial_state(1.2, 501, seed));

@@ -21,7 +21,7 @@ schema::Job gas(std::uint32_t particles, std::uint64_t seed = 1) {
   return job;
 }
 
-// A cooling gas whose equilibration is planned, too.
+// A cooling gas, and its equilibration, which is also planned.
 std::vector<schema::Planned> with_its_start(const schema::Job& job, double start, double cooling) {
   return {{.job = schema::equilibration_of(job), .expected_cpu_seconds = start},
           {.job = job, .expected_cpu_seconds = cooling}};
@@ -39,14 +39,15 @@ std::vector<schema::Planned> small_jobs(int count, double seconds) {
 
 TEST_CASE("run time: small jobs fill the processors, one thread each") {
   const RunTime four = expected_run_time(small_jobs(10, 7), 4);
-  CHECK(four.seconds == doctest::Approx(21));  // 4, 4 and 2 of them
+  CHECK(four.seconds == doctest::Approx(21));  // 4, 4 and 2 jobs at a time
   CHECK(four.most_threads == 1);
   CHECK(expected_run_time(small_jobs(10, 7), 1).seconds == doctest::Approx(70));
   CHECK(expected_run_time({}, 4).seconds == 0);
 }
 
-// A tenth of a second. If each start of a job looked through all that wait, it would be a minute.
-TEST_CASE("run time: of a hundred thousand jobs it is found at once" * doctest::timeout(10)) {
+// This takes a tenth of a second. If each start of a job searched all waiting jobs, it would take a
+// minute.
+TEST_CASE("run time: that of a hundred thousand jobs is found at once" * doctest::timeout(10)) {
   CHECK(expected_run_time(small_jobs(100'000, 7), 4).seconds == doctest::Approx(175'000));
 }
 
@@ -63,7 +64,7 @@ TEST_CASE("run time: the last large job has all processors") {
   CHECK(alone.seconds == doctest::Approx(40 / four));
   CHECK(alone.most_threads == 4);
 
-  // Beside two that are longer, it has two threads, and all four after their end.
+  // Beside two longer jobs it has two threads, and all four after their end.
   std::vector<schema::Planned> jobs{{.job = gas(500'000), .expected_cpu_seconds = 100},
                                     {.job = gas(1000), .expected_cpu_seconds = 20}};
   CHECK(expected_run_time(jobs, 4).seconds == doctest::Approx(20 + (100 - 20 * two) / four));

@@ -44,7 +44,8 @@ std::string table_of(const Plot& plot) {
 
 }  // namespace
 
-TEST_CASE("plot: a table has a head, a row a point, 17 digits and nothing where nothing is known") {
+TEST_CASE(
+    "plot: a table has a head, a row per point, 17 digits and empty fields for missing values") {
   CHECK(table_of(two_curves()) ==
         "panel,curve,kind,e,n,particles,realizations,tau,temperature,temperature_error\n"
         "main,e = 0.80,measured,0.80000000000000004,0.40000000000000002,1000,1,0,"
@@ -69,7 +70,7 @@ TEST_CASE("plot: a script draws every curve, errors only where there are some") 
   CHECK(bare.find("$curve1 using 1:2 with lines") != std::string::npos);
 }
 
-TEST_CASE("plot: logarithmic axes leave out what they cannot show") {
+TEST_CASE("plot: logarithmic axes leave out values that they cannot show") {
   Plot plot = two_curves();
   plot.panels[0].y.logarithmic = true;
   plot.panels[0].curves[0].y = {-1, 0.25};
@@ -85,7 +86,7 @@ TEST_CASE("plot: a caption cannot become a command") {
   const std::string script = gnuplot_script(plot, PictureFormat::png);
   CHECK(script.find("\nsystem") == std::string::npos);
   CHECK(script.find("\nEND\nsystem") == std::string::npos);
-  // In the block of data; gnuplot itself reads a doubled backslash as one.
+  // The caption is in the block of data; gnuplot itself reads a doubled backslash as one.
   CHECK(script.find("\tx\\\\x0aEND\\\\x0asystem") != std::string::npos);
 }
 
@@ -104,7 +105,7 @@ TEST_CASE("plot: symbols are thinned in the picture, not in the table") {
   CHECK(std::count(table.begin(), table.end(), '\n') == 1001);
 }
 
-TEST_CASE("plot: the range of y takes error bars in") {
+TEST_CASE("plot: the range of y includes error bars") {
   Curve curve;
   curve.x = {0, 1, 2};
   curve.y = {1, 2, NAN};

@@ -43,26 +43,27 @@ std::size_t width(const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("text picture: it is as wide and high as asked, whatever is in it") {
+TEST_CASE("text picture: it has the given width and height, whatever it shows") {
   for (const int columns : {30, 80, 200})
     for (const int lines : {16, 24, 40}) {
       const auto text =
           lines_of(text_picture(decay(), {.columns = columns, .lines = lines}, false));
-      CHECK(text.size() == static_cast<std::size_t>(lines) + 1);  // and a line of legend
+      CHECK(text.size() == static_cast<std::size_t>(lines) + 1);  // and one line of legend
       for (const std::string& line : text) CHECK(width(line) <= static_cast<std::size_t>(columns));
     }
 }
 
-TEST_CASE("text picture: curves are told apart by letters, or by colours") {
+TEST_CASE("text picture: curves are distinguished by letters or by colours") {
   const std::string plain = text_picture(decay(), {}, false);
   CHECK(plain.find('\x1b') == std::string::npos);
   CHECK(plain.find("a e = 0.1   b e = 0.2") != std::string::npos);
   const std::string coloured = text_picture(decay(), {}, true);
   CHECK(coloured.find("\x1b[38;5;") != std::string::npos);
-  CHECK(coloured.find("── ") == std::string::npos);  // the sample has the colour, the words do not
+  CHECK(coloured.find("── ") ==
+        std::string::npos);  // the sample line has the colour, and the words do not
 }
 
-TEST_CASE("text picture: text of a store moves no cursor") {
+TEST_CASE("text picture: text of a store does not move the cursor") {
   Plot plot = decay();
   plot.panels[0].curves[0].legend = "x\x1b[2Jy\n";
   plot.panels[0].y.label = "\x1b]0;title\a";
@@ -71,7 +72,7 @@ TEST_CASE("text picture: text of a store moves no cursor") {
   CHECK(text.find('\a') == std::string::npos);
 }
 
-TEST_CASE("text picture: a curve that falls reaches from the upper left to the lower right") {
+TEST_CASE("text picture: a falling curve reaches from the upper left to the lower right") {
   const auto text = lines_of(text_picture(decay(1), {}, false));
   const auto is_drawn = [](const std::string& line) {
     return line.find("\xe2\xa0") != std::string::npos ||
@@ -82,7 +83,8 @@ TEST_CASE("text picture: a curve that falls reaches from the upper left to the l
   CHECK(is_drawn(text[20]));
 }
 
-TEST_CASE("text picture: logarithmic axes have decades, and no place for what is not above 0") {
+TEST_CASE(
+    "text picture: logarithmic axes have decades, and leave out values that are not above 0") {
   Plot plot = decay(1);
   plot.panels[0].y.logarithmic = true;
   plot.panels[0].curves[0].y = std::vector<double>(51, 1e-3);
@@ -93,7 +95,7 @@ TEST_CASE("text picture: logarithmic axes have decades, and no place for what is
   CHECK(text.find("  10┤") != std::string::npos);
 }
 
-TEST_CASE("text picture: values that are all the same, one point, none") {
+TEST_CASE("text picture: equal values, one point, and no point are drawn") {
   Plot plot = decay(1);
   plot.panels[0].curves[0].y.assign(51, 2);
   CHECK_FALSE(text_picture(plot, {}, false).empty());
@@ -104,7 +106,7 @@ TEST_CASE("text picture: values that are all the same, one point, none") {
   CHECK_FALSE(text_picture(plot, {.columns = 1, .lines = 1}, true).empty());
 }
 
-TEST_CASE("text picture: markup of labels is taken off") {
+TEST_CASE("text picture: markup in labels is removed") {
   CHECK(without_markup("{/:Italic γ} / {/:Italic γ}_0") == "γ / γ_0");
   CHECK(without_markup("a\\_b\\\\") == "a_b\\");
   CHECK(without_markup("{/:Italic") == "");

@@ -15,7 +15,7 @@ using namespace haff::campaign;
 
 namespace {
 
-// Job 1 equilibrates, jobs 2 and 3 start from it.
+// Job 1 is an equilibration from which jobs 2 and 3 start.
 schema::Store planned() {
   auto store = schema::Store::in_memory();
   store.add(schema::plan({schema::cooling(0.8, 1), schema::cooling(0.9, 1)}));
@@ -42,7 +42,8 @@ std::int64_t any_cooling(const schema::Reader& store) {
 
 }  // namespace
 
-TEST_CASE("explain: a pending equilibration waits for a run, and others for it") {
+TEST_CASE(
+    "explain: a pending equilibration waits for a run, and other jobs wait for the equilibration") {
   const schema::Store store = planned();
   const Explanation found = explain(store, equilibration(store));
   CHECK(has(found.where, "It is pending"));
@@ -70,7 +71,7 @@ TEST_CASE("explain: a running job is named with its process") {
   CHECK(found.waits_for.empty());
 }
 
-TEST_CASE("explain: errors, how many more there may be, and what stays stored") {
+TEST_CASE("explain: errors, the attempts that are left, and what stays stored") {
   schema::Store store = planned();
   const auto claim = store.claim(this_process(), "test");
   REQUIRE(claim);
@@ -94,7 +95,7 @@ TEST_CASE("explain: errors, how many more there may be, and what stays stored") 
   CHECK(has(explain(store, any_cooling(store)).next, "retry"));
 }
 
-TEST_CASE("explain: as JSON, and no such job") {
+TEST_CASE("explain: the answer as JSON; a job that does not exist is refused") {
   const schema::Store store = planned();
   const nlohmann::ordered_json object = explanation_json(explain(store, equilibration(store)));
   CHECK(object["status"] == "pending");

@@ -11,7 +11,7 @@ using namespace haff::campaign;
 
 namespace {
 
-// A job that a host worked on from one second of a minute to another.
+// A job that ran on a host from one second of a minute to another.
 schema::JobRow job(std::int64_t id, const std::string& host, int from, int to, double cpu_seconds) {
   const auto at = [](int second) {
     return "2003-09-05T12:00:" + std::string(second < 10 ? "0" : "") + std::to_string(second) +
@@ -28,14 +28,14 @@ schema::JobRow job(std::int64_t id, const std::string& host, int from, int to, d
 
 }  // namespace
 
-TEST_CASE("occupancy: times are read as UTC, and what is none is no number") {
+TEST_CASE("occupancy: times are read as UTC, and other texts give no number") {
   CHECK(seconds_of("1970-01-02T00:00:01.500Z") == 86401.5);
   CHECK(seconds_of("2003-09-05T12:00:00.000Z") == 1062763200.0);
   CHECK(std::isnan(seconds_of("yesterday")));
   CHECK(std::isnan(seconds_of("")));
 }
 
-TEST_CASE("occupancy: jobs that overlap add up, and the last step is down to none") {
+TEST_CASE("occupancy: jobs that overlap add up, and the last step goes down to zero") {
   // One processor from 0 to 10, and half of another from 5 to 15.
   const auto all = occupancy({job(1, "a", 0, 10, 10), job(2, "a", 5, 15, 5)}, {});
   REQUIRE(all.size() == 1);
@@ -45,7 +45,7 @@ TEST_CASE("occupancy: jobs that overlap add up, and the last step is down to non
   CHECK(all[0].busy == std::vector{1.0, 1.5, 0.5, 0.0});
 }
 
-TEST_CASE("occupancy: hosts are apart") {
+TEST_CASE("occupancy: each host has its own curve") {
   const auto all = occupancy({job(1, "b", 0, 10, 10), job(2, "a", 5, 15, 5)}, {});
   REQUIRE(all.size() == 2);
   CHECK(all[0].host == "a");

@@ -15,7 +15,7 @@ using namespace haff::campaign;
 
 namespace {
 
-// An equilibration and two cooling jobs that are expected to take so many seconds each.
+// An equilibration and two cooling jobs, each of which is expected to take this many seconds.
 schema::Store planned(double expected_cpu_seconds) {
   auto store = schema::Store::in_memory();
   auto jobs = schema::plan({schema::cooling(0.8, 1), schema::cooling(0.9, 1)});
@@ -26,7 +26,7 @@ schema::Store planned(double expected_cpu_seconds) {
 
 }  // namespace
 
-TEST_CASE("overview: nothing runs: the remaining time is not known, run comes next") {
+TEST_CASE("overview: while nothing runs, the remaining time is not known, and `run` comes next") {
   const schema::Store store = planned(10);
   const Overview overview = look(store);
   CHECK_FALSE(seconds_left(overview));
@@ -36,7 +36,7 @@ TEST_CASE("overview: nothing runs: the remaining time is not known, run comes ne
   CHECK(overview_json(overview)["seconds_left"].is_null());
 }
 
-TEST_CASE("overview: the remaining time is all that is left, shared by the jobs that run") {
+TEST_CASE("overview: the remaining time is that of all jobs left, shared among the running ones") {
   schema::Store store = planned(10);
   REQUIRE(store.claim(this_process(), "test"));
   // One job runs, and three are left.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Which of a store's series the figures draw.
+// The series of a store that the figures draw.
 #include "campaign/results/averages.hpp"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,7 @@ schema::Store empty_store() {
 
 }  // namespace
 
-TEST_CASE("averages: a mean series is the store's view, absent values NaN") {
+TEST_CASE("averages: a mean series is that of the store's view, with NaN for missing values") {
   auto store = empty_store();
   add_finished(store, 0.8, 0.4, 1000, 2, 5);
   const Averages averages = read_averages(store);
@@ -44,11 +44,11 @@ TEST_CASE("averages: one realization has no errors") {
   CHECK(std::isnan(read_averages(store).series.front().temperature.error.back()));
 }
 
-TEST_CASE("averages: of each e the series of the most particles in all is drawn") {
+TEST_CASE("averages: for each e the series with the most particles in all is drawn") {
   auto store = empty_store();
   add_finished(store, 0.8, 0.4, 1000, 3, 3);
   add_finished(store, 0.8, 0.4, 5000, 1, 3);
-  add_finished(store, 0.8, 0.4, 4000, 2, 3, 0.5);  // sampled more often: another series
+  add_finished(store, 0.8, 0.4, 4000, 2, 3, 0.5);  // another series, which is sampled more often
   add_finished(store, 0.9, 0.4, 1000, 1, 3);
   const auto chosen = choose_series(read_averages(store), 0.4, &MeanSeries::a2);
   REQUIRE(chosen.size() == 2);
@@ -85,17 +85,18 @@ TEST_CASE("averages: the series nearest to a wanted e") {
   CHECK(nearest(series, 0.90).e == 0.88);
 }
 
-TEST_CASE("averages: tau_c is only where some realization got there") {
+TEST_CASE("averages: tau_c exists only where some realization reached it") {
   auto store = empty_store();
   add_finished(store, 0.8, 0.4, 1000, 2, 90);
   add_finished(store, 0.95, 0.4, 1000, 2, 20);
   const auto chosen = choose_tau_c(read_averages(store), 0.4);
   REQUIRE(chosen.size() == 1);
   CHECK(chosen.front().reached == 2);
-  CHECK(chosen.front().tau_c == doctest::Approx(58.6).epsilon(0.05));  // the theory it is made of
+  CHECK(chosen.front().tau_c ==
+        doctest::Approx(58.6).epsilon(0.05));  // the theory from which the series is made
 }
 
-TEST_CASE("averages: tau_c is the store's view, with Student's intervals about it") {
+TEST_CASE("averages: tau_c is that of the store's view, with Student's intervals") {
   auto store = empty_store();
   add_finished(store, 0.8, 0.4, 1000, 4, 90);
   const auto chosen = choose_tau_c(read_averages(store), 0.4);
@@ -105,7 +106,7 @@ TEST_CASE("averages: tau_c is the store's view, with Student's intervals about i
   REQUIRE(row);
   // The view sums in the same order; SQLite's avg carries more digits.
   CHECK(chosen.front().tau_c == doctest::Approx(std::get<double>((*row)[0])).epsilon(1e-14));
-  // Quantiles of Student's t of three degrees of freedom, 68.27 % and 95 %.
+  // Quantiles of Student's t with three degrees of freedom, 68.27 % and 95 %.
   const double standard_error = std::get<double>((*row)[1]);
   CHECK(chosen.front().error == doctest::Approx(1.1969 * standard_error).epsilon(1e-4));
   CHECK(chosen.front().half_interval == doctest::Approx(3.1824 * standard_error).epsilon(1e-4));
@@ -130,7 +131,7 @@ TEST_CASE("averages: a series holds its realizations, by seed, and says how many
   CHECK(series.temperature.value[3] == doctest::Approx(mean).epsilon(1e-14));
 }
 
-TEST_CASE("averages: realizations added later only add") {
+TEST_CASE("averages: realizations that are added later are appended") {
   auto store = empty_store();
   add_finished(store, 0.8, 0.4, 1000, 2, 5);
   const auto before = read_averages(store).series.front().runs;
@@ -143,7 +144,7 @@ TEST_CASE("averages: realizations added later only add") {
   }
 }
 
-TEST_CASE("averages: of several densities each has its series") {
+TEST_CASE("averages: each of several densities has its series") {
   auto store = empty_store();
   for (const double n : {0.1, 0.4, 0.2}) add_finished(store, 0.85, n, 1000, 1, 3);
   add_finished(store, 0.9, 0.3, 1000, 1, 3);
@@ -153,7 +154,8 @@ TEST_CASE("averages: of several densities each has its series") {
   CHECK(chosen[2].n == 0.4);
 }
 
-TEST_CASE("averages: printed intervals cover as they say, for groups of three of 201 seeds") {
+TEST_CASE(
+    "averages: printed intervals have their stated coverage, for groups of three of 201 seeds") {
   auto store = empty_store();
   add_finished(store, 0.8, 0.4, 1000, 201, 90);
   const Averages averages = read_averages(store);
@@ -172,8 +174,9 @@ TEST_CASE("averages: printed intervals cover as they say, for groups of three of
     bars += difference <= mean->error;
     intervals += difference <= mean->half_interval;
   }
-  // Binomial, 67 times: 0.683 has a deviation of 0.057, 0.95 of 0.027; three of them, so a sound
-  // interval fails once in some 400. A bare standard error of three covers 0.58.
+  // 67 binomial trials: a share of 0.683 has a deviation of 0.057, one of 0.95 a deviation of
+  // 0.027. Three deviations are allowed, so a sound interval fails once in some 400 seeds. A bare
+  // standard error of three values covers 0.58.
   CHECK(bars / double(groups) == doctest::Approx(0.683).epsilon(3 * 0.057 / 0.683));
   CHECK(intervals / double(groups) > 0.95 - 3 * 0.027);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a box can hold by linear theory, against numbers calculated independently.
+// The instabilities that fit into a box by linear theory, against an independent calculation.
 #include "campaign/results/box.hpp"
 
 #include <doctest/doctest.h>
@@ -22,7 +22,7 @@ schema::Job cooling(double e, std::uint32_t particles) {
 
 }  // namespace
 
-TEST_CASE("box: below N = 563 (e = 0.8) and 1468 (e = 0.9) a gas of n = 0.4 keeps to Haff's law") {
+TEST_CASE("box: below N = 563 (e = 0.8) and 1468 (e = 0.9) a gas of n = 0.4 obeys Haff's law") {
   for (const auto& each : {std::pair{0.8, 563.0}, std::pair{0.9, 1468.0}}) {
     const double e = each.first, particles = each.second;
     CAPTURE(e);

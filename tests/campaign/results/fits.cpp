@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Fits to series made from the theory that is fitted.
+// Fits of a theory to series that are made from it.
 #include "campaign/results/fits.hpp"
 
 #include <doctest/doctest.h>
@@ -22,12 +22,12 @@ MeanSeries synthetic(double e, int seeds, double tau_max, std::uint32_t particle
 
 }  // namespace
 
-TEST_CASE("fits: b of a gas that obeys the energy equation is the one it was made with") {
+TEST_CASE("fits: b of a series made from the energy equation is recovered") {
   const auto fit = fitted_cutoff(synthetic(0.8, 4, 90));
   REQUIRE(fit);
   CHECK(fit->count == 4);
   CHECK(fit->standard_error > 0);
-  // Noise of 1/sqrt(500 000) in ln E against 0.2 in ln E a unit of ln b: within one per cent.
+  // Noise of 1/sqrt(500 000) in ln E, which changes by 0.2 per unit of ln b: within one per cent.
   CHECK(fit->mean == doctest::Approx(0.30).epsilon(0.01));
 }
 
@@ -37,7 +37,7 @@ TEST_CASE("fits: one realization has a fit, but no error") {
   CHECK(std::isnan(fit->standard_error));
 }
 
-TEST_CASE("fits: a few samples are fitted to nothing") {
+TEST_CASE("fits: a few samples are not fitted") {
   CHECK_FALSE(fitted_cutoff(synthetic(0.8, 1, 5)));
 }
 
@@ -57,9 +57,10 @@ TEST_CASE("fits: the late exponent is that of T beyond 2 tau_c") {
   CHECK(late_exponent(series)->mean == doctest::Approx(3));
 }
 
-TEST_CASE("fits: a realization that cannot be fitted does not end those of the others") {
+TEST_CASE(
+    "fits: a realization that cannot be fitted does not prevent the others from being fitted") {
   MeanSeries series = synthetic(0.8, 3, 90);
-  for (double& each : series.runs[1].temperature) each = HUGE_VAL;  // no gas
+  for (double& each : series.runs[1].temperature) each = HUGE_VAL;  // not a possible gas
   const auto fit = fitted_cutoff(series);
   REQUIRE(fit);
   CHECK(fit->count == 2);

@@ -31,7 +31,7 @@ schema::Store two_realizations(int first, int second) {
 
 }  // namespace
 
-TEST_CASE("realizations of one physics version are averaged in silence") {
+TEST_CASE("realizations of one physics version are averaged without a message") {
   CHECK(mixed_physics(two_realizations(1, 1)).empty());
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The table of tau_c that `status` and a run's end print.
+// The table of tau_c that `status` prints, and `run` at its end.
 #include "campaign/results/series.hpp"
 
 #include <doctest/doctest.h>
 
 using namespace haff::campaign;
 
-TEST_CASE("series: by how much tau_c may be early is said where rows are far apart") {
+TEST_CASE("series: the table says how early tau_c may be where rows are far apart") {
   const auto table = [](double sample_every) {
     Series series;
     series.planned = series.done = series.reached = 1;
@@ -18,7 +18,7 @@ TEST_CASE("series: by how much tau_c may be early is said where rows are far apa
     return series_table({series});
   };
   const char* note = "comes out early by up to sample_every^2/(2 tau_c)";
-  CHECK(table(10).find(note) != std::string::npos);  // 0.87; 0.41 was measured
+  CHECK(table(10).find(note) != std::string::npos);  // early by up to 0.87; 0.41 was measured
   CHECK(table(2).find(note) != std::string::npos);   // 0.03
   CHECK(table(1).find(note) == std::string::npos);   // 0.009
 }

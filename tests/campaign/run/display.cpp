@@ -15,7 +15,7 @@ const Totals totals{.jobs = 12, .done = 5, .failed = 1, .fraction = 0.432, .seco
 
 }  // namespace
 
-TEST_CASE("display: a bar for each worker and one for all") {
+TEST_CASE("display: a bar for each worker, and one for the whole run") {
   const auto lines = bars(workers, totals, 200, 24);
   REQUIRE(lines.size() == 3);
   CHECK(lines[0] ==
@@ -29,7 +29,7 @@ TEST_CASE("display: no line is wider than the terminal") {
   for (const std::string& line : bars(workers, totals, 30, 24)) CHECK(line.size() <= 30);
 }
 
-TEST_CASE("display: one plain line says the same") {
+TEST_CASE("display: one plain line has the same content") {
   CHECK(plain_line(workers, totals) ==
         " 43.2 %  5 of 12 jobs done, 1 failed, 3m 20s left,  1.25 M collisions/s; "
         "job 7 tau 45.0/90");

@@ -23,7 +23,7 @@ schema::Owner elsewhere() {
   return owner;
 }
 
-// What a second host hears, or nothing.
+// The message to a second host, or nothing.
 std::string refusal(const std::filesystem::path& store, const schema::Owner& me,
                     Use use = Use::write) try {
   const HostLock lock(store, use, true, me, 0ms);
@@ -34,7 +34,7 @@ std::string refusal(const std::filesystem::path& store, const schema::Owner& me,
 
 }  // namespace
 
-TEST_CASE("host_lock: a second host is refused, and told host, process and time") {
+TEST_CASE("host_lock: a second host is refused with host, process and time") {
   const TemporaryFolder folder;
   const auto store = folder / "a store.db";
   {
@@ -48,13 +48,14 @@ TEST_CASE("host_lock: a second host is refused, and told host, process and time"
   CHECK(refusal(store, elsewhere()).empty());
 }
 
-TEST_CASE("host_lock: commands of the same host share the store with a run, not with each other") {
+TEST_CASE(
+    "host_lock: commands of the same host share the store with a run, but not with each other") {
   const TemporaryFolder folder;
   const auto store = folder / "campaign.db";
   {
     const HostLock run(store, Use::run, true, this_process(), 0ms);
     CHECK(refusal(store, this_process()).empty());
-    CHECK(std::filesystem::exists(folder / "campaign.db.host"));  // still that of the run
+    CHECK(std::filesystem::exists(folder / "campaign.db.host"));  // the run still holds it
     CHECK_FALSE(refusal(store, this_process(), Use::run).empty());
   }
   const HostLock plan(store, Use::write, true, this_process(), 0ms);
@@ -73,7 +74,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("host_lock: a writer takes a reader's place, at once on its own host") {
+TEST_CASE("host_lock: a writer replaces a reader, at once on the same host") {
   const TemporaryFolder folder;
   const auto store = folder / "campaign.db";
   {
@@ -82,7 +83,7 @@ TEST_CASE("host_lock: a writer takes a reader's place, at once on its own host")
     CHECK(refusal(store, elsewhere()).find("two hosts") != std::string::npos);
   }
   CHECK_FALSE(std::filesystem::exists(folder / "campaign.db.host"));
-  // Of another host a reader is waited for, and then told.
+  // The writer waits for a reader of another host, and then names it.
   const HostLock reader(store, Use::read, true, this_process(), 0ms);
   const auto before = std::chrono::steady_clock::now();
   const HostLock writer(store, Use::write, true, elsewhere(), 300ms);
@@ -96,7 +97,7 @@ TEST_CASE("host_lock: a reader of a folder that cannot be written needs no lock"
                   schema::StoreError);
 }
 
-TEST_CASE("host_lock: one that a dead process of this host left is no lock") {
+TEST_CASE("host_lock: a lock that a dead process of this host left does not count") {
   const TemporaryFolder folder;
   const auto store = folder / "campaign.db";
   schema::Owner dead = this_process();
@@ -107,7 +108,7 @@ TEST_CASE("host_lock: one that a dead process of this host left is no lock") {
   CHECK(refusal(store, this_process()).empty());
 }
 
-TEST_CASE("host_lock: a store on a local disk needs none") {
+TEST_CASE("host_lock: a store on a local disk needs no lock") {
   const TemporaryFolder folder;
   CHECK_FALSE(schema::is_on_network(folder / "campaign.db"));
   const HostLock lock(folder / "campaign.db", Use::run);

@@ -14,17 +14,17 @@
 using namespace haff;
 using namespace haff::campaign;
 
-TEST_CASE("process: this one lives") {
+TEST_CASE("process: this process lives") {
   CHECK(life_of(this_process()) == Life::alive);
 }
 
-TEST_CASE("process: another that has the same number is not it") {
+TEST_CASE("process: another process with the same number is not the same process") {
   auto process = this_process();
   process.started -= 1;
   CHECK(life_of(process) == Life::dead);
 }
 
-TEST_CASE("process: one of before a restart is dead") {
+TEST_CASE("process: a process from before a restart is dead") {
   auto process = this_process();
   process.boot_id[0] = process.boot_id[0] == '0' ? '1' : '0';
   CHECK(life_of(process) == Life::dead);
@@ -55,11 +55,11 @@ TEST_CASE("process: a child that has ended is dead, reaped or not") {
   CHECK(life_of(child) == Life::dead);
 }
 
-TEST_CASE("abandoned: a job of another host is when its lease was not renewed for five minutes") {
+TEST_CASE("abandoned: a job of another host whose lease was not renewed for five minutes") {
   schema::RunningJob job;
   job.owner = this_process();
   job.owner.host += "-other";
-  // Whatever the other host's clock says: long ago, or years ahead.
+  // The clock of the other host may be years behind or ahead.
   for (const char* renewed : {"2003-09-05T12:00:00.000Z", "2999-09-05T12:00:00.000Z"}) {
     job.renewed = renewed;
     LeaseWatch watch;
@@ -70,7 +70,8 @@ TEST_CASE("abandoned: a job of another host is when its lease was not renewed fo
   }
 }
 
-TEST_CASE("abandoned: a lease that is renewed, or passes to another worker, begins anew") {
+TEST_CASE(
+    "abandoned: the five minutes begin anew when a lease is renewed or passes to another worker") {
   schema::RunningJob job;
   job.owner = this_process();
   job.owner.host += "-other";
@@ -88,7 +89,7 @@ TEST_CASE("abandoned: a lease that is renewed, or passes to another worker, begi
   CHECK(watch.is_abandoned(job, start + 4 * step));
 }
 
-TEST_CASE("abandoned: a job of a process that lives is not, however old its lease") {
+TEST_CASE("abandoned: not a job of a living process, however old its lease") {
   schema::RunningJob job;
   job.owner = this_process();
   job.renewed = "2003-09-05T12:00:00.000Z";

@@ -33,7 +33,7 @@ engine::State a_state() {
 
 }  // namespace
 
-TEST_CASE("checkpoint: decode gives back what encode was given") {
+TEST_CASE("checkpoint: decode gives back the state that was encoded") {
   CHECK(decode(encode(a_state())) == a_state());
 }
 
@@ -66,7 +66,7 @@ TEST_CASE("checkpoint: any cut is found") {
     CHECK_THROWS_AS(decode(std::span(bytes).first(size)), DamagedCheckpoint);
 }
 
-TEST_CASE("checkpoint: bytes added are found") {
+TEST_CASE("checkpoint: added bytes are found") {
   auto bytes = encode(a_state());
   bytes.resize(bytes.size() + 8);
   CHECK_THROWS_AS(decode(bytes), DamagedCheckpoint);
@@ -87,7 +87,7 @@ TEST_CASE("checkpoint: a count whose bytes overflow is found behind a valid chec
   CHECK_THROWS_WITH_AS(decode(bytes), doctest::Contains("cut short"), DamagedCheckpoint);
 }
 
-TEST_CASE("checkpoint: an overlap behind a valid checksum is refused, pair and depth named") {
+TEST_CASE("checkpoint: an overlap behind a valid checksum is refused, with pair and depth") {
   const schema::Job job{.e = 0.8, .n = 0.4, .particles = 100, .seed = 1};
   engine::State state = engine::initial_state(job.n, job.particles, 1);
   state.position[1] = state.position[0];
@@ -96,7 +96,7 @@ TEST_CASE("checkpoint: an overlap behind a valid checksum is refused, pair and d
                        doctest::Contains("overlap by 0.25"), DamagedCheckpoint);
 }
 
-TEST_CASE("checkpoint: disks stay disks, and are none of spheres") {
+TEST_CASE("checkpoint: disks stay disks, and are refused by a job of spheres") {
   const schema::Job job{.d = 2, .e = 0.8, .n = 0.4, .particles = 100, .seed = 1};
   const engine::State state = engine::initial_state(job.n, job.particles, 1, 2);
   const schema::Checkpoint stored{.tau = 0, .collisions = 0, .state = encode(state)};
@@ -126,7 +126,7 @@ TEST_CASE("checkpoint: more fields than a state can have are refused at once") {
   CHECK_THROWS_WITH_AS(decode(encode(state)), doctest::Contains("fields"), DamagedCheckpoint);
 }
 
-TEST_CASE("checkpoint: a newer program's is no damage") {
+TEST_CASE("checkpoint: one of a newer program does not count as damaged") {
   auto bytes = encode(a_state());
   bytes[8] = std::byte{200};  // the version
   bytes.resize(bytes.size() - 8);
@@ -136,20 +136,20 @@ TEST_CASE("checkpoint: a newer program's is no damage") {
   CHECK_THROWS_AS(decode(bytes), NewerCheckpoint);
 }
 
-TEST_CASE("checkpoint: carries the physics version, and no job goes on under another") {
+TEST_CASE("checkpoint: it has the physics version, and no job goes on under another version") {
   const schema::Job job{.e = 0.8, .n = 0.4, .particles = 100, .seed = 1};
   schema::Checkpoint stored{.state = encode(engine::initial_state(job.n, job.particles, 1))};
   CHECK(physics_version_of(stored.state) == engine::physics_version);
   CHECK(!foreign_physics(stored));
 
-  // As another engine would have written it: its number is the last field.
+  // A checkpoint of another version of the engine: the version is the last field.
   const int other = engine::physics_version + 1;
   const std::size_t end = stored.state.size() - sizeof(std::uint64_t);
   std::memcpy(stored.state.data() + end - sizeof other, &other, sizeof other);
   const std::uint64_t sum = checkpoint_checksum(std::span(stored.state).first(end));
   std::memcpy(stored.state.data() + end, &sum, sizeof sum);
   CHECK(physics_version_of(stored.state) == other);
-  CHECK(restore(stored, job).particles() == 100);  // to be looked at, it is as good as any
+  CHECK(restore(stored, job).particles() == 100);  // it can still be looked at
   const auto why = foreign_physics(stored);
   REQUIRE(why);
   CHECK(why->find("physics version 2, and this program computes version 1") != std::string::npos);

@@ -27,7 +27,7 @@ std::vector<std::string> lines_of(const engine::State& state, const std::string&
 
 }  // namespace
 
-TEST_CASE("extended XYZ: a head with cell, periodicity and columns, then particles by id") {
+TEST_CASE("extended XYZ: a header with cell, periodicity and columns, then particles by id") {
   engine::State state;
   state.box = 4;
   state.id = {1, 0};
@@ -42,12 +42,13 @@ TEST_CASE("extended XYZ: a head with cell, periodicity and columns, then particl
             "H 0 0.30000000000000004 3.5 -1 0 0.25 0.5 1 0", "H 1 2 3 0.5 0 0 0.5 1 1"});
 }
 
-TEST_CASE("extended XYZ: disks lie in a layer, species differ, rough particles spin") {
+TEST_CASE(
+    "extended XYZ: disks lie in a layer, species have names, and rough particles have spins") {
   engine::State state = engine::initial_state(
       0.3, 10, 1, 2,
       {{"mixture", {{"fraction", 0.5}, {"diameter_ratio", 0.8}, {"mass_ratio", 0.1}}}});
   std::vector<double> spin(30);
-  spin[29] = 7;  // the speed of the surface of a disk of radius 0.4
+  spin[29] = 7;  // the surface speed of a disk of radius 0.4
   state.memory["spin"] = spin;
   const auto lines = lines_of(state, "n=0.3");
   REQUIRE(lines.size() == 12);
@@ -58,7 +59,7 @@ TEST_CASE("extended XYZ: disks lie in a layer, species differ, rough particles s
   CHECK(lines[11].ends_with(" 0.4 0.1 9 0 0 17.5"));
 }
 
-TEST_CASE("extended XYZ: text in the head is in quotes") {
+TEST_CASE("extended XYZ: text in the header is in quotes") {
   CHECK(quoted_for_xyz(R"({"a":1})") == R"('{"a":1}')");
   CHECK(quoted_for_xyz("{}") == R"("{}")");
   CHECK_THROWS_AS(quoted_for_xyz(R"(it's "a")"), std::invalid_argument);

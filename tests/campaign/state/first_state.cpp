@@ -85,7 +85,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
 
 }  // namespace
 
-TEST_CASE("first state: a shear wave of exactly its amplitude, with energy 1 and no momentum") {
+TEST_CASE("first state: a shear wave has exactly its amplitude, energy 1 and no momentum") {
   for (const int d : {2, 3})
     for (const char* effects : {"", "mixture"}) {
       const schema::Job job = job_of(2000, d);
@@ -93,11 +93,11 @@ TEST_CASE("first state: a shear wave of exactly its amplitude, with energy 1 and
       const schema::Start start{
           .kind = schema::Start::Kind::shear_wave, .amplitude = 0.7, .waves = 2};
       const engine::State state = first_state(before, start);
-      // Rounding of sums of 2000 terms.
+      // Rounding in sums of 2000 terms.
       CHECK(std::abs(energy_of(state) - 1) < 1e-13);
       CHECK(momentum_of(state) < 1e-14);
       CHECK(state.position == before.position);
-      // What was thermal before is f times as fast, and the rest is the wave, in every particle.
+      // The thermal velocity of every particle is multiplied by f, and the rest is the wave.
       const double f = state.velocity[0][1] / before.velocity[0][1];
       double largest = 0;
       Frame unused;
@@ -119,7 +119,7 @@ TEST_CASE("first state: a shear wave of exactly its amplitude, with energy 1 and
     }
 }
 
-TEST_CASE("first state: two temperatures of exactly their ratio, and neither half flows") {
+TEST_CASE("first state: two temperatures have exactly their ratio, and neither half flows") {
   for (const double ratio : {4.0, 0.1}) {
     const schema::Job job = job_of(1000);
     const engine::State before = gas_of(job);
@@ -152,14 +152,14 @@ TEST_CASE("first state: the temperatures of a mixture are those of its species")
   CHECK(momentum_of(state) < 1e-14);
 }
 
-TEST_CASE("a state of the user's own: what is written is read back in every bit") {
+TEST_CASE("a state of the user's own: a written state is read back in every bit") {
   for (const int d : {2, 3}) {
     const schema::Job job = job_of(500, d);
     const engine::State state = engine::restarted(gas_of(job));
     const engine::State again = read(written(state), job);
     CHECK(again.box == state.box);
-    // In the order of the file, which is that of ids. Energy is 1 up to rounding, and made so
-    // again.
+    // The order is that of the file, which is that of ids. The energy is 1 up to rounding, and is
+    // set to 1 again.
     for (std::size_t k = 0; k < state.id.size(); ++k) {
       const std::uint32_t id = state.id[k];
       CHECK(again.id[id] == id);
@@ -171,7 +171,7 @@ TEST_CASE("a state of the user's own: what is written is read back in every bit"
   }
 }
 
-TEST_CASE("a state of the user's own: momentum is taken away, and the energy is made 1") {
+TEST_CASE("a state of the user's own: momentum is removed, and the energy is set to 1") {
   const schema::Job job = job_of();
   engine::State state = gas_of(job);
   for (auto& v : state.velocity)
@@ -195,7 +195,7 @@ TEST_CASE("a state of the user's own: species and spins") {
         doctest::Approx(1).epsilon(1e-12));
 }
 
-TEST_CASE("a state that is none of this job's is refused, with the line") {
+TEST_CASE("a state that does not belong to the job is refused, with the line") {
   const schema::Job job = job_of(4);
   const std::string head =
       "4\nLattice=\"2.3712622029933753 0 0 0 2.3712622029933753 0 0 0 2.3712622029933753\" "

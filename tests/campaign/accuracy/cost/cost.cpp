@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What `campaign cost` says and writes.
+// The output and the files of `campaign cost`.
 #include "campaign/accuracy/cost/cost.hpp"
 
 #include <doctest/doctest.h>
@@ -47,7 +47,7 @@ TEST_CASE("cost: writes a table, a CSV of whole rows, and pictures") {
   while (std::getline(csv, line)) {
     const auto quote = line.find('"');
     if (quote != std::string::npos)
-      line.erase(quote, line.find('"', quote + 1) - quote);  // commas within do not separate
+      line.erase(quote, line.find('"', quote + 1) - quote);  // commas in quotes do not separate
     CAPTURE(line);
     CHECK(std::ranges::count(line, ',') == std::ranges::count(head, ','));
   }
@@ -55,7 +55,7 @@ TEST_CASE("cost: writes a table, a CSV of whole rows, and pictures") {
     CHECK(std::filesystem::file_size(folder.path() / "cost" / "cost-e0.90-n0.40.svg") > 1000);
 }
 
-TEST_CASE("cost: advice for the error asked for") {
+TEST_CASE("cost: advice for a wanted error") {
   const TemporaryFolder folder;
   schema::Store store = schema::Store::in_memory();
   add_finished(store, 0.9, 0.4, 1000, 8, 20);
@@ -64,7 +64,7 @@ TEST_CASE("cost: advice for the error asked for") {
   CHECK(report.str().find("2.0e-04") != std::string::npos);
 }
 
-TEST_CASE("cost: an error of what no run reaches gets an answer") {
+TEST_CASE("cost: a wanted error of a quantity that no run reaches gets an answer") {
   const TemporaryFolder folder;
   schema::Store store = schema::Store::in_memory();
   add_finished(store, 0.9, 0.4, 1000, 8, 20);
@@ -81,7 +81,7 @@ TEST_CASE("cost: an error of what no run reaches gets an answer") {
   CHECK(report.str().find("gamma/gamma0, tau 13 to 17") != std::string::npos);
 }
 
-TEST_CASE("cost: an empty store says what to plan") {
+TEST_CASE("cost: for an empty store the message says what to plan") {
   const TemporaryFolder folder;
   const schema::Store store = schema::Store::in_memory();
   std::ostringstream report;
@@ -90,7 +90,7 @@ TEST_CASE("cost: an empty store says what to plan") {
   CHECK_FALSE(std::filesystem::exists(folder.path() / "cost"));
 }
 
-TEST_CASE("cost: gases that differ in their effects alone are pictures of their own") {
+TEST_CASE("cost: gases that differ only in their effects have separate pictures") {
   const TemporaryFolder folder;
   schema::Store store = schema::Store::in_memory();
   for (const char* effects : {"{}", R"({"shuffle":{"every":1.0}})"})

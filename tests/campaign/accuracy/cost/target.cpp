@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// An error that is wanted, as the command line names it.
+// A wanted error, as given on the command line.
 #include "campaign/accuracy/cost/target.hpp"
 
 #include <doctest/doctest.h>
@@ -8,7 +8,7 @@
 using namespace haff;
 using namespace haff::campaign;
 
-TEST_CASE("cost target: targets are a quantity and an error") {
+TEST_CASE("cost target: a target is a quantity and an error") {
   CHECK(target_from_text("a2=5e-4") == CostTarget{.measure = Measure::a2, .error = 5e-4});
   const auto quantity = [](const char* text) { return target_from_text(text).value().quantity; };
   CHECK(quantity("a2@3:8=5e-4") == Quantity{.measure = Measure::a2, .from = 3, .to = 8});

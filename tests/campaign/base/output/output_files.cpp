@@ -12,7 +12,7 @@
 using namespace haff::campaign;
 
 TEST_CASE(
-    "output files: one that cannot be written is named with the reason, the others are there") {
+    "output files: one that cannot be written is named with the reason, and the others exist") {
   const haff::TemporaryFolder folder;
   const auto write = [](const std::filesystem::path& file) { write_file(file, "text"); };
   OutputFiles files;

@@ -6,7 +6,7 @@
 
 using namespace haff::campaign;
 
-TEST_CASE("command_text: words are quoted where a shell would take them apart") {
+TEST_CASE("command_text: words are quoted where a shell would split them") {
   CHECK(shell_word("grid.json") == "grid.json");
   CHECK(shell_word("my runs/a b.db") == "'my runs/a b.db'");
   CHECK(shell_word("it's") == "'it'\\''s'");
@@ -16,7 +16,7 @@ TEST_CASE("command_text: words are quoted where a shell would take them apart") 
   CHECK(shell_word("~/a") == "'~/a'");
 }
 
-TEST_CASE("command_text: the default store needs no word") {
+TEST_CASE("command_text: the default store is not named") {
   CHECK(command_text("run", "campaign.db") == "campaign run");
   CHECK(command_text("run", "a b.db") == "campaign run --store 'a b.db'");
 }

@@ -8,7 +8,7 @@
 
 using namespace haff::campaign;
 
-TEST_CASE("csv: numbers have all digits, and nothing stands where there is none") {
+TEST_CASE("csv: numbers have all digits, and a missing number is an empty field") {
   CHECK(csv_row(0.1, 7, std::int64_t{-3}) == "0.10000000000000001,7,-3\n");
   CHECK(csv_row(std::nan(""), std::optional<double>(), HUGE_VAL) == ",,\n");
 }

@@ -6,7 +6,7 @@
 
 using namespace haff::campaign;
 
-TEST_CASE("duration: read as people write it") {
+TEST_CASE("duration: the usual notations are read") {
   CHECK(seconds_from_text("90") == 90);
   CHECK(seconds_from_text("90s") == 90);
   CHECK(seconds_from_text("45m") == 2700);
@@ -15,14 +15,14 @@ TEST_CASE("duration: read as people write it") {
   CHECK(seconds_from_text("0.5h") == 1800);
 }
 
-TEST_CASE("duration: what is none") {
+TEST_CASE("duration: other texts are refused") {
   for (const char* text : {"", "h", "1x", "-5m", "0", "1h-5m", "inf", "nan", "1e400h"}) {
     CAPTURE(text);
     CHECK_FALSE(seconds_from_text(text));
   }
 }
 
-TEST_CASE("duration: written with two units at most") {
+TEST_CASE("duration: a duration is written with at most two units") {
   CHECK(duration_text(0) == "0 s");
   CHECK(duration_text(0.034) == "0.03 s");
   CHECK(duration_text(4.21) == "4.2 s");

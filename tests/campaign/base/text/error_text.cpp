@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What users read of an error of the store, and what they are told to type.
+// The messages about errors of the store, with the command to type next.
 #include "campaign/base/text/error_text.hpp"
 
 #include <doctest/doctest.h>

@@ -29,12 +29,12 @@ TEST_CASE("printable: bytes that are not UTF-8 are shown one by one") {
   CHECK(printable("\xe2\x28\xa1") == "\\xe2(\\xa1");
 }
 
-TEST_CASE("printable: nothing in XML is a tag, an entity or the end of an attribute") {
+TEST_CASE("printable: text in XML cannot be a tag, an entity or the end of an attribute") {
   CHECK(xml_escaped("</title><script>\"&'") == "&lt;/title&gt;&lt;script&gt;&quot;&amp;&#39;");
   CHECK(xml_escaped("\x01") == "\\x01");
 }
 
-TEST_CASE("printable: lines stay lines where they are asked to") {
+TEST_CASE("printable: line ends are kept where this is asked for") {
   CHECK(printable_lines("one\ntwo\x1b\n") == "one\ntwo\\x1b\n");
   CHECK(printable_lines("one") == "one");
 }

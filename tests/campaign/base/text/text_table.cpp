@@ -22,7 +22,7 @@ TEST_CASE("text table: letters of more than one byte count once") {
   CHECK(table.text() == "    x  y\n-----  -\n1 ± 2  3\n    1  2\n");
 }
 
-TEST_CASE("text table: thousands apart") {
+TEST_CASE("text table: thousands are separated") {
   CHECK(count_text(0) == "0");
   CHECK(count_text(999) == "999");
   CHECK(count_text(32000) == "32 000");

@@ -18,7 +18,7 @@ TEST_CASE("watch: lines are cut to the width, between characters") {
   CHECK(screen_of("\u03c4\u03c4\u03c4 x\n", 2, 5) == Lines{"\u03c4\u03c4"});
 }
 
-TEST_CASE("watch: what does not fit is counted") {
+TEST_CASE("watch: lines that do not fit are counted") {
   CHECK(screen_of("1\n2\n3\n4\n", 80, 3) == Lines{"1", "2", "... 2 more lines"});
   CHECK(screen_of("1\n2\n3\n", 80, 3) == Lines{"1", "2", "3"});
 }

@@ -42,7 +42,7 @@ double number(const schema::Value& value) {
 
 }  // namespace
 
-TEST_CASE("answer: means and errors are those of the store's views and of the figures") {
+TEST_CASE("answer: means and errors are the same as in the store's views and in the figures") {
   const auto store = two_gases();
   const Answer a2 = answer(store, {.y = "temperature", .by = {"e"}});
   REQUIRE(curves(a2).size() == 2);
@@ -63,14 +63,14 @@ TEST_CASE("answer: means and errors are those of the store's views and of the fi
   CHECK_FALSE(rows.next());
 }
 
-TEST_CASE("answer: an error of a2 is never less than that of Gaussian velocities") {
+TEST_CASE("answer: the error of a2 is never less than that of Gaussian velocities") {
   const Answer one = answer(two_gases(1), {.y = "a2", .where = "e = 0.8"});
   // sqrt(8 / (15 N)) of one realization of 1000 particles.
   CHECK(curves(one).front().error.front() == Approx(std::sqrt(8.0 / 15 / 1000)));
   CHECK(std::isnan(curves(answer(two_gases(1), {.y = "temperature"})).front().error.front()));
 }
 
-TEST_CASE("answer: gases that differ are never averaged, whatever they are named by") {
+TEST_CASE("answer: different gases are never averaged, whatever parameter names the curves") {
   auto store = two_gases();
   add_finished(store, 0.8, 0.2, 1000, 3, 20);
   const Answer by_n = answer(store, {.y = "temperature", .by = {"n"}});
@@ -98,7 +98,7 @@ TEST_CASE("answer: a decay rate stands in the middle of its interval, in tau and
   CHECK(curves(in_time).front().x.front() == Approx(3.5 / 5));  // this gas has time = tau / 5
 }
 
-TEST_CASE("answer: against a parameter, a point for each gas and a curve for the rest") {
+TEST_CASE("answer: against a parameter, each gas is a point, and other parameters make curves") {
   auto store = two_gases();
   add_finished(store, 0.8, 0.2, 1000, 3, 20);
   const Answer plateau = answer(store, {.y = "a2", .against = "e", .by = {"n"}});
@@ -121,7 +121,7 @@ TEST_CASE("answer: a profile has a curve for each tau") {
   CHECK_THROWS_AS(answer(store, {.y = "S@15"}), NothingToDraw);
 }
 
-TEST_CASE("answer: theory stands beside what is measured, in its units") {
+TEST_CASE("answer: theory is drawn beside measured values, in their units") {
   const auto store = two_gases();
   const Answer energy = answer(store, {.y = "energy", .log_y = true, .theory = true});
   CHECK(count(energy, Source::theory) == 6);  // Haff's law and two energy equations of two gases
@@ -137,12 +137,13 @@ TEST_CASE("answer: in time, Haff's law is 1 / (1 + t/t_0)^2") {
   const auto haff = std::ranges::find_if(
       curves(energy), [](const Curve& c) { return c.name.starts_with("energy_haff"); });
   REQUIRE(haff != curves(energy).end());
-  // Of two points t_0 follows: it is the same for all.
+  // Each point gives a t_0, which must be the same for all.
   const auto t_0 = [&](std::size_t i) { return haff->x[i] / (1 / std::sqrt(haff->y[i]) - 1); };
-  CHECK(t_0(20) == Approx(t_0(150)).epsilon(1e-3));  // steps of the integral
+  CHECK(t_0(20) ==
+        Approx(t_0(150)).epsilon(1e-3));  // the error comes from the steps of the integral
 }
 
-TEST_CASE("answer: a line of theory ends where the data end, also where their clock is another") {
+TEST_CASE("answer: a line of theory ends where the data end, on either clock") {
   const auto store = two_gases();
   for (const char* against : {"tau", "time"}) {
     CAPTURE(against);
@@ -153,7 +154,7 @@ TEST_CASE("answer: a line of theory ends where the data end, also where their cl
     CHECK(count(energy, Source::theory) >= 2);
     for (const Curve& line : curves(energy)) {
       if (line.source != Source::theory || line.x.empty()) continue;
-      CHECK(line.x.size() > 75);  // of 160 steps: the other clock may take twice as many
+      CHECK(line.x.size() > 75);  // of 160 steps: the other clock may need twice as many
       CHECK(line.x.back() <= last);
       CHECK(line.x.back() > 0.98 * last);
       CHECK(line.y.size() == line.x.size());
@@ -202,7 +203,8 @@ TEST_CASE("answer: forty gases have a scale of tones in place of a legend") {
         std::string::npos);
 }
 
-TEST_CASE("answer: nothing to draw, SQL that is none, and logarithms of nothing are told apart") {
+TEST_CASE(
+    "answer: no data, wrong SQL and logarithms without positive values have different messages") {
   const auto store = two_gases();
   CHECK_THROWS_WITH_AS(answer(store, {.y = "a2", .where = "e = 0.5"}),
                        doctest::Contains("no finished run has a2, where e = 0.5"), NothingToDraw);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The table of agreement on stores made from theory, which they must agree with.
+// The table of agreement for stores that are made from theory and must agree with it.
 #include "campaign/paper/claims/agreement.hpp"
 
 #include <doctest/doctest.h>
@@ -65,13 +65,13 @@ TEST_CASE("agreement: a gas that obeys theory is not said to differ from it") {
 
 namespace {
 
-// What a gas does that obeys a theory exactly, three times the same and so large that chance is
-// nothing: the verdicts are those on the theory.
+// A gas that obeys a theory exactly: three equal realizations, so large that random errors vanish.
+// The verdicts are those on the theory.
 struct Theory {
   double b = analysis::cutoff_b;
   analysis::Velocities velocities = analysis::Velocities::enskog_boltzmann;
-  double source = 1;    // of a_2, in units of the true one
-  bool returns = true;  // a_2, before tau_c
+  double source = 1;    // the source of a_2, in units of the true one
+  bool returns = true;  // whether a_2 returns to zero before tau_c
   double a3_over_a2 = 0.3;
 };
 
@@ -109,12 +109,13 @@ Averages averages_of(const Theory& theory, double e) {
 
 std::optional<bool> verdict(const std::string& claim, const Theory& theory, double e = 0.8) {
   const auto rows = rows_of(claim, agreement(averages_of(theory, e)));
-  return rows.empty() ? std::optional(false) : rows.front().holds;  // no tau_c: no agreement
+  return rows.empty() ? std::optional(false)
+                      : rows.front().holds;  // without tau_c there is no agreement
 }
 
 }  // namespace
 
-TEST_CASE("agreement: each claim on cooling holds for theory, and fails for those next to it") {
+TEST_CASE("agreement: each claim on cooling holds for its theory and fails for similar theories") {
   constexpr double b = analysis::cutoff_b;
   using analysis::Velocities;
   for (const char* claim : {"tau_c", "energy", "decay", "cutoff"}) {
@@ -127,7 +128,8 @@ TEST_CASE("agreement: each claim on cooling holds for theory, and fails for thos
   }
 }
 
-TEST_CASE("agreement: each claim on velocities holds for theory, and fails for those next to it") {
+TEST_CASE(
+    "agreement: each claim on velocities holds for its theory and fails for similar theories") {
   constexpr double e = 0.9;
   for (const char* claim : {"a2 early", "a2 return", "order"}) {
     CAPTURE(claim);
@@ -151,7 +153,7 @@ TEST_CASE("agreement: a gas without correlations, or whose correlations do not s
   };
   CHECK(holds("correlations", averages) == true);
 
-  Averages still = averages;  // as at tau = 60, at any time
+  Averages still = averages;  // at all times as at tau = 60
   for (MeanProfile& profile : still.series.front().profiles)
     if (profile.name == "G_parallel")
       profile.mean = averages.series.front().profile("G_parallel", 60)->mean;
@@ -168,7 +170,7 @@ TEST_CASE("agreement: no data, no claims") {
   CHECK(agreement(read_averages(schema::Store::in_memory())).empty());
 }
 
-TEST_CASE("agreement: a table has a row a claim, and nothing where there is nothing") {
+TEST_CASE("agreement: a table has a row per claim, and empty fields where data are missing") {
   const TemporaryFolder folder;
   const auto file = folder.path() / "agreement.csv";
   write_agreement({{.claim = "order", .quantity = "a, b", .value = 0.1, .holds = false}}, file);
