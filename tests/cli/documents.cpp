@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The man page and the completions, as the program describes its own command line.
+// The man page and the completions that the program makes from its own command line.
 #include <doctest/doctest.h>
 
 #include <sstream>
@@ -26,26 +26,13 @@ std::vector<std::string> commands(const Folder& folder) {
   return names;
 }
 
-std::string completed(const Folder& folder, const std::string& words) {
-  folder.write("complete",
-               "compopt() { :; }  # works only while a user completes\n"
-               ". ./completion\n"
-               "COMP_WORDS=(campaign " +
-                   words +
-                   ")\n"
-                   "COMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n"
-                   "_campaign\n"
-                   "echo ${COMPREPLY[@]}\n");
-  return shell(folder, "$campaign document bash > completion && bash complete").out;
-}
-
 bool contains(const std::string& text, const std::string& what) {
   return text.find(what) != std::string::npos;
 }
 
 }  // namespace
 
-TEST_CASE("documents: each names every command, and none that is hidden") {
+TEST_CASE("documents: each names every command that is not hidden") {
   const Folder folder;
   const auto names = commands(folder);
   REQUIRE(names.size() > 10);
@@ -61,18 +48,4 @@ TEST_CASE("documents: each names every command, and none that is hidden") {
     CHECK(contains(outcome.out, "max"));
   }
   CHECK(campaign(folder, {"document", "html"}).exit_code == 2);
-}
-
-TEST_CASE("documents: bash completes commands, options, their values and files") {
-  const Folder folder;
-  folder.write("grid.json", "{}");
-  CHECK(completed(folder, "ret") == "retry\n");
-  CHECK(completed(folder, "run --bud") == "--budget\n");
-  CHECK(completed(folder, "run --st") == "--store\n");
-  CHECK(completed(folder, "query --format j") == "json\n");
-  CHECK(completed(folder, "plan gr") == "grid.json\n");
-  CHECK(completed(folder, "--store grid.j") == "grid.json\n");
-  CHECK(completed(folder, "run --store = grid.j") == "grid.json\n");
-  CHECK(completed(folder, "query --format =") == "table csv json\n");
-  CHECK(completed(folder, "run --max-time ''") == "\n");  // a time cannot be guessed
 }
