@@ -34,7 +34,7 @@ TEST_CASE("command line: --version names commit, compiler and SIMD target") {
     CHECK(contains(outcome.out, part));
 }
 
-TEST_CASE("command line: a bad command line ends with 2 and the help to ask for") {
+TEST_CASE("command line: a bad command line ends with 2 and names the help") {
   const Folder folder;
   struct Bad {
     std::vector<std::string> words;
@@ -53,7 +53,7 @@ TEST_CASE("command line: a bad command line ends with 2 and the help to ask for"
   }
 }
 
-TEST_CASE("command line: a file that is no store is bad input for every command") {
+TEST_CASE("command line: a file that is not a store is bad input for every command") {
   const Folder folder;
   folder.write("grid.json", R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 5})");
   for (const char* command : {"run", "status", "retry", "figures"}) {

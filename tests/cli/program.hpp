@@ -17,7 +17,7 @@ namespace haff::tests {
 // The program `campaign` of this build.
 extern const char* const campaign_path;
 
-// A temporary folder with a store in it, once there is one.
+// A temporary folder, which holds the store of the test.
 class Folder {
  public:
   std::filesystem::path operator/(const std::string& name) const { return folder_.path() / name; }
@@ -31,10 +31,10 @@ class Folder {
 struct Outcome {
   int exit_code = 0;  // 128 + signal if a signal killed it
   std::string out, err;
-  double peak_bytes = 0;  // the most memory that it held
+  double peak_bytes = 0;  // the largest memory that it used
 };
 
-// A program that runs in a folder: `campaign`, or the one that the first word names by its path.
+// A program that runs in a folder: `campaign`, or the program whose path is the first word.
 class Program {
  public:
   Program(const Folder& folder, std::vector<std::string> words);
@@ -54,10 +54,10 @@ class Program {
   pid_t id_ = 0;
 };
 
-// Runs `campaign` with these words to its end.
+// Runs `campaign` with these arguments to its end.
 Outcome campaign(const Folder& folder, std::vector<std::string> words);
 
-// Runs a shell script in the folder, with $campaign the program.
+// Runs a shell script in the folder, where $campaign is the program.
 Outcome shell(const Folder& folder, const std::string& script);
 
 bool is_alive(pid_t process);
@@ -67,13 +67,13 @@ void sleep_for(std::chrono::milliseconds time);
 // in hexadecimal: equal texts are equal bits.
 std::string rows(const Folder& folder);
 
-// One number that a query gives.
+// The number that a query gives.
 double number(const Folder& folder, const std::string& sql);
 
 // Changes the store behind the program's back.
 void sabotage(const Folder& folder, const std::string& sql);
 
-// The same, as if a program without digests had written it, so that the change goes unseen.
+// The same as by a program without digests, so that the change is not noticed.
 void change(const Folder& folder, const std::string& sql);
 
 }  // namespace haff::tests

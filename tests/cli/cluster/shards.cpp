@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Campaigns divided among shards: run apart, killed, merged in any order, the same rows come home.
+// Campaigns divided among shards: run apart, killed and merged in any order, they have the same
+// rows.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -12,7 +13,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Three scenes, with everything that a store can hold of a job.
+// Three scenes, with all data that a store can hold of a job.
 const std::string grid = R"({
   "n": 0.3, "N": 500, "seeds": 3, "tau_max": 60, "equilibrate": 20, "checkpoint_every": 10,
   "grids": [
@@ -27,7 +28,7 @@ std::string first_shard(const Folder& folder) {
 }  // namespace
 
 TEST_CASE(
-    "shards: random campaigns, divided, killed and merged at random, come home in every bit") {
+    "shards: random campaigns, divided, killed and merged at random, are the same in every bit") {
   for (const unsigned seed : {1U, 2U, 3U, 4U}) wander(seed);
 }
 
@@ -61,7 +62,7 @@ TEST_CASE("shards: a merge killed at 100 moments leaves a store that the next on
   check_home(folder, expected);
 }
 
-TEST_CASE("shards: what is lent is not run at home, and merging while a run is on is allowed") {
+TEST_CASE("shards: lent jobs are not run in the store, and a merge during a run is allowed") {
   const Folder folder;
   plan(folder, grid);
   REQUIRE(campaign(folder, {"split", "--into", "2"}).exit_code == 0);
@@ -104,7 +105,8 @@ TEST_CASE("shards: a row that differs in its last bit is named, and nothing is o
 }
 
 TEST_CASE(
-    "shards: what is no shard of this campaign is refused by name, and costs the others nothing") {
+    "shards: a file that is not a shard of this campaign is refused by name, and others are "
+    "merged") {
   const Folder folder;
   plan(folder, grid);
   REQUIRE(campaign(folder, {"split", "--into", "2"}).exit_code == 0);

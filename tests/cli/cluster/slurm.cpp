@@ -12,7 +12,7 @@
 using namespace haff::tests;
 using namespace std::chrono_literals;
 
-TEST_CASE("slurm: a campaign with effects and a target comes home over two nodes") {
+TEST_CASE("slurm: a campaign with effects and a target is completed on two nodes") {
   const std::string expected = calm_rows(grid_with_everything);
   const Folder folder;
   const SlurmCluster cluster(folder / "slurm");
@@ -39,7 +39,8 @@ TEST_CASE("slurm: a campaign with effects and a target comes home over two nodes
   CHECK(std::filesystem::exists(folder / "shards/round-002.json"));
 }
 
-TEST_CASE("slurm: a task by hand puts its shard back while it works, stops in order and goes on") {
+TEST_CASE(
+    "slurm: a task without Slurm puts its shard back while it works, stops in order and goes on") {
   const Folder folder;
   plan(folder, long_grid);
   REQUIRE(campaign(folder, {"split", "--into", "1"}).exit_code == 0);
@@ -48,7 +49,7 @@ TEST_CASE("slurm: a task by hand puts its shard back while it works, stops in or
   {
     Program task(folder, words);
     wait_for_states(folder, "shard-001", 4);
-    // A node that dies: everything on it is gone, without a word.
+    // The node dies without a message, and everything on it is lost.
     for (const pid_t child : task.workers()) kill(child, SIGKILL);
     task.signal(SIGKILL);
     task.wait();
@@ -69,7 +70,7 @@ TEST_CASE("slurm: a task by hand puts its shard back while it works, stops in or
   CHECK_FALSE(std::filesystem::exists(folder / "shards/shard-001.db.task"));
 }
 
-TEST_CASE("slurm: a task removes the scratch folders that killed ones left, and those alone") {
+TEST_CASE("slurm: a task removes the scratch folders that killed tasks left, and no others") {
   const Folder folder;
   plan(folder, long_grid);
   REQUIRE(campaign(folder, {"split", "--into", "3"}).exit_code == 0);
@@ -88,11 +89,12 @@ TEST_CASE("slurm: a task removes the scratch folders that killed ones left, and 
     CHECK(campaign(folder, {"merge", shard}).exit_code == 0);
 }
 
-TEST_CASE("slurm: a scratch folder that fills up costs what was not put back") {
+TEST_CASE("slurm: when a scratch folder is full, only data that were not put back are lost") {
   const Folder folder;
   plan(folder, grid_with_everything);
   REQUIRE(campaign(folder, {"split", "--into", "1"}).exit_code == 0);
-  // The limit is on the size of a file, which a full disk is to the one that writes it.
+  // The limit is on the size of a file; for the process that writes it this is the same as a full
+  // disk.
   const Outcome full = shell(folder,
                              "ulimit -f 500; exec \"$campaign\" task shards/shard-001.db "
                              "--put-back-every 0.5s --workers 2");
@@ -103,7 +105,7 @@ TEST_CASE("slurm: a scratch folder that fills up costs what was not put back") {
   CHECK(campaign(folder, {"merge", "shards/shard-001.db"}).exit_code == 0);
   CHECK(campaign(folder, {"run"}).exit_code == 0);  // the target's further seeds
   CHECK(rows(folder) == calm_rows(grid_with_everything));
-  // One with no room for the shard itself is named before anything is done.
+  // A scratch folder without room for the shard itself is named before any work is done.
   const Outcome none =
       shell(folder, "ulimit -f 10; exec \"$campaign\" task shards/shard-001.db --workers 2");
   CHECK(none.exit_code == 1);

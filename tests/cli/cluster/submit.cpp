@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// `campaign submit` where Slurm is played by scripts: whatever is refused, cut off or gone, the
-// next one knows what is out and goes on from there.
+// `campaign submit` with scripts in the place of Slurm. Whatever is refused, cut off or lost, the
+// next submit knows which shards are lent and goes on from there.
 #include <doctest/doctest.h>
 
 #include <csignal>
@@ -16,9 +16,9 @@ namespace {
 constexpr const char* small_grid = R"({
   "e": [0.8, 0.9], "n": 0.3, "N": 200, "seeds": 3, "tau_max": 20, "equilibrate": 20})";
 
-// sbatch numbers what it is given and keeps its words in a file, squeue prints a file. A file
-// named "refuse" says how often sbatch refuses; the word of "refuse_only" must be among those it
-// was given.
+// This sbatch numbers its calls and keeps their arguments in a file; squeue prints a file. A file
+// named "refuse" says how often sbatch refuses; with a file "refuse_only", only calls that have its
+// word among their arguments are refused.
 constexpr const char* fake_sbatch = R"SH(#!/bin/sh
 cd "$(dirname "$0")"
 if [ -s refuse ] && { [ ! -e refuse_only ] || echo "$*" | grep -q -e "$(cat refuse_only)"; }; then
@@ -38,7 +38,7 @@ void play_slurm(const Folder& folder) {
   REQUIRE(shell(folder, "chmod +x bin/*; touch bin/queue bin/submitted").exit_code == 0);
 }
 
-// Types the lines for PBS and HTCondor. PBS runs the script that it reads once for each number.
+// Runs the lines for PBS and HTCondor. PBS runs the script that it reads once for each number.
 constexpr const char* by_other_schedulers = R"SH(
 mkdir bin
 cat > bin/qsub <<'END'
@@ -80,7 +80,7 @@ double count_jobs(const Folder& folder, const std::string& status) {
 
 }  // namespace
 
-TEST_CASE("submit: a round at work is left alone, and one that has ended comes home") {
+TEST_CASE("submit: a running round is left alone, and one that has ended is merged") {
   const Folder folder;
   play_slurm(folder);
   plan(folder, small_grid);
@@ -94,13 +94,13 @@ TEST_CASE("submit: a round at work is left alone, and one that has ended comes h
                 refused.err);
   CHECK(refused.err.find("scancel 2 1") != std::string::npos);
 
-  // The job that merges is gone: the tasks get another.
+  // The job that merges is gone: the tasks get a new one.
   queue(folder, "1\n1\n");
   CHECK(submit_here(folder).out.find("submitted again, as job 3") != std::string::npos);
   queue(folder, "1\n3\n");
   CHECK(submit_here(folder).exit_code == 1);
 
-  // All were cancelled, when one of them had ended.
+  // All tasks were cancelled after one of them had ended.
   run_shards(folder, "shards/shard-001.db");
   queue(folder, "");
   const Outcome next = submit_here(folder);
@@ -115,7 +115,7 @@ TEST_CASE("submit: a round at work is left alone, and one that has ended comes h
   check_home(folder, calm_rows(small_grid));
 }
 
-TEST_CASE("submit: no more rounds than --rounds allows, and none after one that brought nothing") {
+TEST_CASE("submit: no more rounds than --rounds allows, and none after a round without progress") {
   const Folder folder;
   play_slurm(folder);
   plan(folder, small_grid);
@@ -134,7 +134,8 @@ TEST_CASE("submit: no more rounds than --rounds allows, and none after one that 
   CHECK(count_jobs(folder, "lent") == 0);
 }
 
-TEST_CASE("submit: what sbatch refuses is taken back, at night after some patience") {
+TEST_CASE(
+    "submit: shards that sbatch refuses are taken back; an unattended round first tries again") {
   const Folder folder;
   play_slurm(folder);
   plan(folder, small_grid);
@@ -155,7 +156,7 @@ TEST_CASE("submit: what sbatch refuses is taken back, at night after some patien
   CHECK(std::filesystem::exists(folder / "shards/round-002.json"));
 }
 
-TEST_CASE("submit: killed at any moment, the next one knows what is out") {
+TEST_CASE("submit: after a kill at any moment, the next submit knows which shards are lent") {
   const std::string expected = calm_rows(small_grid);
   std::mt19937 random(5);
   const Folder folder;
@@ -177,7 +178,7 @@ TEST_CASE("submit: killed at any moment, the next one knows what is out") {
   check_home(folder, expected);
 }
 
-TEST_CASE("submit: without sbatch the other ways are told, and are as they are told") {
+TEST_CASE("submit: without sbatch the lines for other schedulers are printed, and they work") {
   const Folder folder;
   plan(folder, small_grid);
   const Outcome outcome =
@@ -189,7 +190,7 @@ TEST_CASE("submit: without sbatch the other ways are told, and are as they are t
     CHECK_MESSAGE(outcome.err.find(word) != std::string::npos, outcome.err);
   CHECK(count_jobs(folder, "lent") == 0);
 
-  // PBS runs the script once for each number; what it is given comes through a pipe.
+  // PBS runs the script once for each number; the script comes through a pipe.
   folder.write("said", outcome.err);
   const Outcome pbs = shell(folder, by_other_schedulers);
   CHECK_MESSAGE(pbs.exit_code == 0, pbs.err);

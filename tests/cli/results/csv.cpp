@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Every CSV file that the program writes, read back by another reader: Python's csv module, and
+// Every CSV file that the program writes, as other readers read it: Python's csv module, and
 // pandas where it is installed.
 #include <doctest/doctest.h>
 
@@ -12,7 +12,7 @@ using namespace haff::tests;
 
 namespace {
 
-// Prints how many files it has read. Each must have rows, all of as many fields as the first.
+// Prints the number of files read. Each must have rows, all with as many fields as the first.
 constexpr const char* check = R"PY(
 import csv, glob, sys
 

@@ -23,7 +23,7 @@ void run(const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("export: every particle in its box, with the energy of the sample") {
+TEST_CASE("export: every particle is in the box, and the energy is that of the sample") {
   const Folder folder;
   run(folder);
   const Outcome outcome = campaign(folder, {"export", "2"});
@@ -64,7 +64,7 @@ TEST_CASE("export: every particle in its box, with the energy of the sample") {
   CHECK(squares / 500 / 3 == doctest::Approx(temperature).epsilon(1e-12));
 }
 
-TEST_CASE("export: a rough mixture says which particles are of which species, and how they spin") {
+TEST_CASE("export: a rough mixture is exported with species and spins") {
   const Folder folder;
   folder.write("grid.json", R"({"e": 0.9, "n": 0.1, "N": 100, "seeds": 1, "tau_max": 20,
     "effects": {"mixture": {"fraction": 0.5, "diameter_ratio": 1, "mass_ratio": 0.1},
@@ -95,7 +95,7 @@ TEST_CASE("export: a rough mixture says which particles are of which species, an
   CHECK(spin > 0);
 }
 
-TEST_CASE("export: what there is not is bad input") {
+TEST_CASE("export: a job or state that does not exist is bad input") {
   const Folder folder;
   run(folder);
   const Outcome unknown = campaign(folder, {"export", "99"});
@@ -110,14 +110,15 @@ TEST_CASE("export: what there is not is bad input") {
   CHECK(early.exit_code == 2);
   CHECK(early.err.find("no state of job 2") != std::string::npos);
   CHECK(early.err.find("with: campaign run") != std::string::npos);
-  // Where checkpoint_every is beyond its end, the first state is the last one.
+  // If checkpoint_every is beyond the end of the job, its first state is its last one.
   change(folder, "UPDATE jobs SET checkpoint_every = 1000");
   const Outcome late = campaign(folder, {"export", "1"});
   CHECK(late.err.find("first checkpoint, tau = 1000") == std::string::npos);
   CHECK(late.err.find("first checkpoint, tau = ") != std::string::npos);
 }
 
-TEST_CASE("export: a job that ends before its first checkpoint has only snapshots, and says so") {
+TEST_CASE(
+    "export: a job that ends before its first checkpoint has only snapshots, as the message says") {
   const Folder folder;
   folder.write("grid.json", R"({"e": 0.9, "n": 0.3, "N": 500, "seeds": 1, "tau_max": 5,
     "equilibrate": 10, "snapshots_at": 3})");
@@ -157,8 +158,8 @@ void run_with_snapshots(const Folder& folder) {
   REQUIRE(campaign(folder, {"run"}).exit_code == 0);
 }
 
-// Reads extended XYZ as others do, by the names in the second line, and says what it found: frames,
-// particles, columns, cell, periodicity, tau, time, and the energy per particle.
+// Reads extended XYZ as other programs do, by the names in the second line, and prints what it
+// found: frames, particles, columns, cell, periodicity, tau, time, and the energy per particle.
 constexpr const char* reader = R"(
 import re, sys
 frames = 0
@@ -188,7 +189,7 @@ while lines:
 
 }  // namespace
 
-TEST_CASE("export: each snapshot, all of them as a trajectory, and a list") {
+TEST_CASE("export: one snapshot, all snapshots as a trajectory, or a list of them") {
   const Folder folder;
   run_with_snapshots(folder);
   folder.write("read.py", reader);
@@ -220,7 +221,7 @@ TEST_CASE("export: each snapshot, all of them as a trajectory, and a list") {
   CHECK(times[2] == 1.5);
   CHECK(taus[3] == 10);
   CHECK(energies[0] == doctest::Approx(1).epsilon(1e-13));
-  // That of the sample at the same collision; sums run in another order.
+  // The temperature of the sample at the same collision; sums run in another order.
   const double temperature =
       number(folder, "SELECT temperature FROM samples WHERE job_id = 2 AND tau = 10");
   CHECK(energies[3] == doctest::Approx(1.5 * temperature).epsilon(1e-12));
@@ -232,7 +233,7 @@ TEST_CASE("export: each snapshot, all of them as a trajectory, and a list") {
   CHECK(at_time.out.find(" Time=1.5 ") != std::string::npos);
 }
 
-TEST_CASE("export: a snapshot that there is not is named with those that there are") {
+TEST_CASE("export: a snapshot that does not exist is named, with those that exist") {
   const Folder folder;
   run_with_snapshots(folder);
   const Outcome wrong = campaign(folder, {"export", "2", "--at", "3"});
@@ -248,7 +249,7 @@ TEST_CASE("export: a snapshot that there is not is named with those that there a
   CHECK(campaign(folder, {"--json", "export", "2"}).exit_code == 2);
 }
 
-TEST_CASE("export: a damaged snapshot is not written; verify finds it, and repair mends it") {
+TEST_CASE("export: a damaged snapshot is not written; verify finds it, and --repair repairs it") {
   const Folder folder;
   run_with_snapshots(folder);
   const std::string before = rows(folder);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// --json: what programs read, and errors that they can read.
+// --json: output and errors that other programs can read.
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
@@ -26,7 +26,7 @@ json parsed(const Outcome& outcome) {
 
 }  // namespace
 
-TEST_CASE("json: plan says what it did, and again that nothing is new") {
+TEST_CASE("json: plan reports what it added, and a second plan that nothing is new") {
   const Folder folder;
   folder.write("grid.json", R"({"e": [0.8, 0.9], "n": 0.4, "N": 500, "seeds": 2, "tau_max": 20})");
   const json would = parsed(campaign(folder, {"plan", "grid.json", "--dry-run", "--json"}));

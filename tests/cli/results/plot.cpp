@@ -35,7 +35,7 @@ TEST_CASE("plot: pictures, tables and text, a list, and errors with their exit c
   const Folder folder;
   fill(folder);
 
-  SUBCASE("what the store has is listed") {
+  SUBCASE("the quantities of the store are listed") {
     const auto list = campaign(folder, {"plot", "--list"});
     CHECK(list.exit_code == 0);
     for (const char* word : {"rotational_ratio", "gamma_ratio@20", "roughness.beta", "-0.5, 0.5",
@@ -43,7 +43,7 @@ TEST_CASE("plot: pictures, tables and text, a list, and errors with their exit c
       CHECK(list.out.find(word) != std::string::npos);
     CHECK(list.out.find("largest_cluster") == std::string::npos);
   }
-  SUBCASE("without a file the picture is text of 80 columns, without colours in a pipe") {
+  SUBCASE("without a file the picture is text of 80 columns, and has no colours in a pipe") {
     const auto text = campaign(folder, {"plot", "a2", "--against", "tau", "--by", "e", "--theory"});
     CHECK(text.exit_code == 0);
     CHECK(text.out.find("e = 0.8") != std::string::npos);
@@ -74,7 +74,7 @@ TEST_CASE("plot: pictures, tables and text, a list, and errors with their exit c
     CHECK(less.exit_code == 0);
     CHECK(contents(folder / "d.csv").find("beta = 0.5") != std::string::npos);
   }
-  SUBCASE("a column that is not known, SQL that is none, and nothing to draw") {
+  SUBCASE("an unknown column, wrong SQL, and no data to draw") {
     const auto unknown = campaign(folder, {"plot", "temprature"});
     CHECK(unknown.exit_code == 2);
     CHECK(unknown.err.find("did you mean \"temperature\"?") != std::string::npos);
@@ -91,7 +91,7 @@ TEST_CASE("plot: pictures, tables and text, a list, and errors with their exit c
     CHECK(campaign(folder, {"plot", "a2", "--log", "z"}).exit_code == 2);
     CHECK(campaign(folder, {"plot", "a2", "--difference", "e"}).exit_code == 2);
   }
-  SUBCASE("text of the question becomes no command of gnuplot") {
+  SUBCASE("text of the question does not become a command of gnuplot") {
     const auto drawn = campaign(
         folder,
         {"plot", "a2 + 0*length('\n`touch pwned`\nsystem \"touch pwned\"')", "--out", "e.png"});

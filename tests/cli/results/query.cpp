@@ -56,7 +56,7 @@ TEST_CASE("query: a query cannot write") {
   CHECK_FALSE(std::filesystem::exists(folder / "other.db"));
 }
 
-TEST_CASE("query: SQL that is none is bad input") {
+TEST_CASE("query: wrong SQL is bad input") {
   const Folder folder;
   plan(folder, small);
   const Outcome outcome = campaign(folder, {"query", "SELECT nothing FROM jobs"});
@@ -64,7 +64,7 @@ TEST_CASE("query: SQL that is none is bad input") {
   CHECK(outcome.err.find("nothing") != std::string::npos);
 }
 
-TEST_CASE("query: query, status and sqlite3 work while a run is on") {
+TEST_CASE("query: query, status and sqlite3 work during a run") {
   const Folder folder;
   plan(folder, R"({"e": 0.9, "n": 0.4, "N": 1000, "seeds": 4, "tau_max": 1500})");
   Program run(folder, {"run", "--workers", "2"});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// `campaign report`: what it writes, and what it says where it cannot. What the page does in a
-// browser is tested by tests/report.
+// `campaign report`: the page that it writes, and its messages where it cannot. tests/report tests
+// the page in a browser.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -25,7 +25,7 @@ void plan(const Folder& folder) {
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
 }
 
-// Built where npm or a network was missing, the program has no page and says what to install.
+// A program that was built without npm or a network has no page, and says what to install.
 bool has_page() {
   const Folder folder;
   const Outcome outcome = campaign(folder, {"report"});
@@ -39,7 +39,7 @@ bool has_page() {
 
 }  // namespace
 
-TEST_CASE("report: one file that asks nothing of a network") {
+TEST_CASE("report: the page is one file that needs no network") {
   if (!has_page()) return;
   const Folder folder;
   plan(folder);
@@ -57,7 +57,7 @@ TEST_CASE("report: one file that asks nothing of a network") {
     CHECK(page.substr(0, page.find("<script")).find(outside) == std::string::npos);
 }
 
-TEST_CASE("report: of a store in which nothing is done") {
+TEST_CASE("report: the page of a store in which nothing is done") {
   if (!has_page()) return;
   const Folder folder;
   plan(folder);
@@ -65,7 +65,7 @@ TEST_CASE("report: of a store in which nothing is done") {
   CHECK(std::filesystem::exists(folder / "report" / "report.html"));
 }
 
-TEST_CASE("report: no store is bad input, a folder that cannot be made a failure") {
+TEST_CASE("report: a missing store is bad input, and a folder that cannot be made is a failure") {
   if (!has_page()) return;
   const Folder folder;
   CHECK(campaign(folder, {"report"}).exit_code == 2);

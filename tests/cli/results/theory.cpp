@@ -22,7 +22,7 @@ std::vector<std::string> lines(const std::string& text) {
   return all;
 }
 
-// Columns of a line of CSV that has no quotes.
+// The columns of a line of CSV without quotes.
 std::vector<double> numbers(const std::string& line) {
   std::vector<double> all;
   std::istringstream in(line);
@@ -32,7 +32,7 @@ std::vector<double> numbers(const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("theory: a2 in csv, as the help says") {
+TEST_CASE("theory: a2 in csv, as in the help") {
   const Folder folder;
   const auto done = campaign(
       folder, {"theory", "a2", "--d", "3", "--e", "0.85", "--tau", "0:40:1", "--format", "csv"});
@@ -44,11 +44,11 @@ TEST_CASE("theory: a2 in csv, as the help says") {
   REQUIRE(last.size() == 4);
   CHECK(last[0] == 40);
   CHECK(last[1] == doctest::Approx(-0.0153).epsilon(0.005));  // -A/B
-  CHECK(std::abs(last[2] + 0.01688) < 4 * (last[3] + 7e-5));  // the equation itself
+  CHECK(std::abs(last[2] + 0.01688) < 4 * (last[3] + 7e-5));  // the solution of the equation
   CHECK_FALSE(std::filesystem::exists(folder.store()));
 }
 
-TEST_CASE("theory: every curve of the list prints") {
+TEST_CASE("theory: every curve of the list is printed") {
   const Folder folder;
   const auto list = lines(campaign(folder, {"theory", "--list"}).out);
   REQUIRE(list.size() > 10);
@@ -79,7 +79,7 @@ TEST_CASE("theory: tau_c of the paper's four e") {
     CHECK(numbers(rows[k + 1])[1] == doctest::Approx(known[k]).epsilon(0.002));
 }
 
-TEST_CASE("theory: other e and other laws are computed, the same each time") {
+TEST_CASE("theory: other e and other laws are computed, with the same result each time") {
   const Folder folder;
   const std::vector<std::string> other = {"theory",         "a2",  "--e",         "0.77",
                                           "--tau",          "0,2", "--particles", "1000",
@@ -94,7 +94,7 @@ TEST_CASE("theory: other e and other laws are computed, the same each time") {
   CHECK(soft.out.find("temperature_dsmc_se") != std::string::npos);
 }
 
-TEST_CASE("theory: what is not understood is named, with exit code 2") {
+TEST_CASE("theory: a word that is not understood is named, with exit code 2") {
   const Folder folder;
   const auto complaint = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "theory");

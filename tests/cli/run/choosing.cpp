@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// `campaign run --where` and `--order` choose jobs; `campaign cancel` and `plan --replace` take
-// those away that are no longer wanted.
+// `campaign run --where` and `--order` choose jobs; `campaign cancel` and `plan --replace` remove
+// jobs that are no longer wanted.
 #include <doctest/doctest.h>
 
 #include <csignal>
@@ -36,7 +36,7 @@ double jobs(const Folder& folder, const std::string& where) {
 
 }  // namespace
 
-TEST_CASE("run --where runs what is chosen, with the equilibrations it needs, and names the rest") {
+TEST_CASE("run --where runs the chosen jobs with their equilibrations, and counts the rest") {
   const Folder folder;
   plan(folder);
   const Outcome outcome =
@@ -47,7 +47,7 @@ TEST_CASE("run --where runs what is chosen, with the equilibrations it needs, an
   CHECK(jobs(folder, "status = 'done' AND seed = 2 AND (kind = 'equilibration' OR e = 0.9)") == 2);
 }
 
-TEST_CASE("run --where: rows are those of a run of everything") {
+TEST_CASE("run --where: rows are the same as in a run of all jobs") {
   const Folder chosen, all;
   plan(chosen);
   plan(all);
@@ -66,7 +66,7 @@ TEST_CASE("run --order takes jobs in this order") {
                "FROM jobs") == 1);
 }
 
-TEST_CASE("run --where: what is no condition, or true of no job, is refused") {
+TEST_CASE("run --where: SQL that is not a condition, or that no job fulfils, is refused") {
   const Folder folder;
   plan(folder);
   for (const char* where : {"e =", "1); DELETE FROM jobs; --", "e", "sed = 1", "e = 0.85", " "}) {
@@ -79,7 +79,7 @@ TEST_CASE("run --where: what is no condition, or true of no job, is refused") {
   CHECK(jobs(folder, "status = 'pending'") == 6);
 }
 
-TEST_CASE("run --where: targets of gases that are chosen get their realizations, others wait") {
+TEST_CASE("run --where: targets of chosen gases get their realizations, and others wait") {
   const Folder folder;
   plan(folder, R"({"e": [0.8, 0.9], "n": 0.4, "N": 500, "seeds": 5, "tau_max": 10,
                    "target": {"a2": {"tau": [5, 10], "se": 0.01}}})");
@@ -96,7 +96,7 @@ TEST_CASE("run --json says how many jobs were not chosen") {
   CHECK(nlohmann::json::parse(outcome.out).at("not_chosen") == 2);
 }
 
-TEST_CASE("cancel: planned jobs go, and --dry-run only says so") {
+TEST_CASE("cancel: planned jobs are removed, and --dry-run only says so") {
   const Folder folder;
   plan(folder);
   const Outcome seen = campaign(folder, {"cancel", "--where", "e = 0.8", "--dry-run"});
@@ -111,7 +111,7 @@ TEST_CASE("cancel: planned jobs go, and --dry-run only says so") {
   CHECK(campaign(folder, {"verify"}).exit_code == 0);
 }
 
-TEST_CASE("cancel --delete removes done jobs with all that they have, and makes the file smaller") {
+TEST_CASE("cancel --delete removes done jobs with all their data, and makes the file smaller") {
   const Folder folder;
   plan(folder, R"({"e": [0.8, 0.9], "n": 0.4, "N": 4000, "seeds": 2, "tau_max": 12})");
   REQUIRE(campaign(folder, {"run"}).exit_code == 0);
@@ -131,7 +131,7 @@ TEST_CASE("cancel --delete removes done jobs with all that they have, and makes 
   CHECK(campaign(folder, {"run"}).exit_code == 0);
 }
 
-TEST_CASE("cancel leaves a job alone that is being run, and says whose it is") {
+TEST_CASE("cancel leaves a running job alone, and names its process") {
   const Folder folder;
   plan(folder, slow);
   Program run(folder, {"run", "--workers", "1"});
@@ -139,7 +139,7 @@ TEST_CASE("cancel leaves a job alone that is being run, and says whose it is") {
   const Outcome outcome = campaign(folder, {"cancel", "--where", "kind = 'equilibration'"});
   CHECK(outcome.exit_code == 1);
   CHECK(contains(outcome.out, "is being run by process"));
-  // Its cooling job is planned, and goes meanwhile.
+  // Its cooling job is only planned, and is removed meanwhile.
   CHECK(campaign(folder, {"cancel", "--where", "e = 0.9"}).exit_code == 0);
   CHECK(jobs(folder, "1") == 1);
   run.signal(SIGTERM);
@@ -169,7 +169,7 @@ TEST_CASE("cancel --json") {
   CHECK(object.at("bytes_given_back").is_null());
 }
 
-TEST_CASE("plan --replace: the grid takes the place of what is planned") {
+TEST_CASE("plan --replace: the grid replaces what is planned") {
   const Folder folder;
   plan(folder);
   REQUIRE(campaign(folder, {"run", "--where", "e = 0.8"}).exit_code == 0);
@@ -184,7 +184,7 @@ TEST_CASE("plan --replace: the grid takes the place of what is planned") {
   CHECK(jobs(folder, "e = 0.95 AND status = 'pending'") == 1);
 }
 
-TEST_CASE("plan: a smaller tau_max counts with --replace only, and plan says so") {
+TEST_CASE("plan: a smaller tau_max has an effect only with --replace, and plan says so") {
   const Folder folder;
   plan(folder);
   folder.write("shorter.json",

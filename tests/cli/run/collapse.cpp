@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Inelastic collapse, as the user of the program meets it.
+// Inelastic collapse, as a user of the program sees it.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -11,7 +11,7 @@ using namespace haff::tests;
 
 namespace {
 
-// Collapses within a few collisions per particle (four spheres in a line, below e = 0.17).
+// This gas collapses within a few collisions per particle (four spheres in a line, e below 0.17).
 std::string grid(const std::string& effects) {
   return R"({"e": 0.1, "n": 0.4, "N": 1000, "seeds": 1, "tau_max": 50, "sample_every": 0.5, "effects": )" +
          effects + "}";
@@ -19,7 +19,7 @@ std::string grid(const std::string& effects) {
 
 }  // namespace
 
-TEST_CASE("collapse: ends a job with its series, named, and fails nothing") {
+TEST_CASE("collapse: it ends a job, which keeps its series, and is named, but is not a failure") {
   const Folder folder;
   folder.write("grid.json", grid("{}"));
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
@@ -29,7 +29,7 @@ TEST_CASE("collapse: ends a job with its series, named, and fails nothing") {
                "SELECT count(*) FROM jobs WHERE error LIKE 'inelastic collapse of particles % at "
                "tau = %'") == 1);
   CHECK(number(folder, "SELECT tau_reached FROM jobs WHERE status = 'collapsed'") > 0);
-  // The series up to then, and only that.
+  // The series ends at the collapse.
   CHECK(
       number(folder,
              "SELECT count(*) = floor(tau_reached / 0.5) + 1 FROM samples JOIN jobs USING (job_id) "
@@ -42,13 +42,13 @@ TEST_CASE("collapse: ends a job with its series, named, and fails nothing") {
   CHECK(status.out.find("collapsed: inelastic collapse of particles") != std::string::npos);
   CHECK(status.out.find("watchdog trips") != std::string::npos);
   CHECK(campaign(folder, {"verify"}).exit_code == 0);
-  // Neither done nor failed: nothing to retry, nothing to run.
+  // The job is neither done nor failed: it is neither retried nor run.
   campaign(folder, {"retry"});
   CHECK(campaign(folder, {"run"}).exit_code == 0);
   CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'collapsed'") == 1);
 }
 
-TEST_CASE("collapse: a duration of contact or a threshold goes on") {
+TEST_CASE("collapse: a gas with a duration of contact or a threshold goes on") {
   const Folder folder;
   folder.write("grid.json", grid(R"({"restitution": [{"law": "tc", "t_c": 1e-3},
                                                       {"law": "threshold", "speed": 1e-3}]})"));

@@ -15,8 +15,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Some three seconds of work for one core: room for two dozen deaths. T/T_0 falls to 1e-20 and
-// below, so the engine's scaling of velocities is interrupted as well.
+// Some three seconds of work for one core, long enough for two dozen kills. T/T_0 falls to 1e-20
+// and below, so the engine's scaling of velocities is interrupted as well.
 constexpr const char* long_grid = R"({
   "e": [0.9, 0.95], "n": 0.4, "N": 1000, "seeds": 3, "tau_max": 1500, "sample_every": 4,
   "checkpoint_every": 20, "profiles_every": 60, "fields_at": [300, 1500],
@@ -31,7 +31,7 @@ void plan(const Folder& folder, const char* grid) {
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
 }
 
-// The rows of a campaign that is left alone.
+// The rows of an undisturbed campaign.
 std::string calm_rows(const char* grid) {
   const Folder folder;
   plan(folder, grid);
@@ -73,7 +73,7 @@ class Storm {
 }  // namespace
 
 TEST_CASE(
-    "interruption: killed at random moments, a campaign ends with the rows of one left alone") {
+    "interruption: killed at random moments, a campaign ends with the rows of an undisturbed one") {
   const Folder folder;
   plan(folder, long_grid);
   Storm storm;
@@ -132,7 +132,7 @@ TEST_CASE("interruption: SIGINT and SIGTERM stop a run in order, and the same co
     const auto start = std::chrono::steady_clock::now();
     const Outcome outcome = run.wait();
     CHECK(outcome.exit_code == stop.exit_code);
-    // Promptly: a second for work worth keeping, and some for a busy machine.
+    // The stop is prompt: a second for work worth keeping, and some more for a busy machine.
     CHECK(std::chrono::steady_clock::now() - start < 10s);  // workers get five
     CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'running'") == 0);
     CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'pending'") > 0);
@@ -143,7 +143,7 @@ TEST_CASE("interruption: SIGINT and SIGTERM stop a run in order, and the same co
   }
 }
 
-TEST_CASE("interruption: a large gas far from its next checkpoint does not keep a stop waiting") {
+TEST_CASE("interruption: a large gas far from its next checkpoint does not delay a stop") {
   const Folder folder;
   plan(folder, R"({"e": 0.9, "n": 0.4, "N": 400000, "seeds": 1, "tau_max": 20})");
   Program run(folder, {"run", "--workers", "1"});

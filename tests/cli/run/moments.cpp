@@ -34,7 +34,7 @@ void finish(const Folder& folder, const std::string& threads = "1") {
 
 }  // namespace
 
-TEST_CASE("moments: further samples change none of the others but averages over intervals") {
+TEST_CASE("moments: further samples change the other samples only in averages over intervals") {
   const Folder with, without;
   plan(with, grid(30, moments));
   plan(without, grid(30, ""));
@@ -48,7 +48,7 @@ TEST_CASE("moments: further samples change none of the others but averages over 
   }
   CHECK(number(with, "SELECT count(*) FROM samples WHERE job_id = 2") == 31 + 11);
   CHECK(number(with, "SELECT count(*) FROM samples WHERE job_id = 2 AND tau = 1.585") == 1);
-  // Over an interval that others divide, a rate is the mean of theirs.
+  // The rate over an interval is the mean of the rates over its parts.
   CHECK(number(with,
                "SELECT sum(collision_rate * dt) / sum(dt) FROM (SELECT collision_rate, tau, "
                "time - lag(time) OVER (ORDER BY tau) AS dt FROM samples WHERE job_id = 2) "

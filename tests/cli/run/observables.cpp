@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Large enough for several threads: one second of work in all.
+// A gas that is large enough for several threads: one second of work in all.
 constexpr const char* everything = R"({
   "e": 0.8, "n": 0.4, "N": 2500, "seeds": 1, "tau_max": 60, "equilibrate": 10, "profiles_every": 15,
   "fields_at": 30,
@@ -71,7 +71,7 @@ TEST_CASE("observables: all of them, killed and resumed, on any number of thread
   }
 }
 
-TEST_CASE("observables: collisions are counted on one thread, and the run says so by name") {
+TEST_CASE("observables: collisions are counted on one thread, and the run says so") {
   const Folder folder;
   folder.write("grid.json", R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 20,
     "observables": ["temperature", "collision_statistics"]})");
@@ -80,12 +80,12 @@ TEST_CASE("observables: collisions are counted on one thread, and the run says s
   CAPTURE(outcome.err);
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err.find("runs on one thread: collision_statistics") != std::string::npos);
-  // At tau = 10 and 20, and none at 0.
+  // There are profiles at tau = 10 and 20, and none at 0.
   CHECK(number(folder, "SELECT count(*) FROM profiles WHERE name = 'impacts'") == 40);
   CHECK(campaign(folder, {"verify", "--recompute", "all"}).exit_code == 0);
 }
 
-TEST_CASE("observables: collision statistics come home from shards, and are averaged and drawn") {
+TEST_CASE("observables: collision statistics are merged from shards, averaged and drawn") {
   const Folder folder, alone;
   for (const Folder* each : {&folder, &alone}) {
     each->write("grid.json", R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 3, "tau_max": 20,

@@ -111,7 +111,7 @@ TEST_CASE("plan: a store that cannot be made is bad input") {
   CHECK(outcome.err.find("no/folder/x.db") != std::string::npos);
 }
 
-TEST_CASE("plan: a dense mixture of small spheres is planned by what fills the box, and runs") {
+TEST_CASE("plan: a dense mixture of small spheres is accepted by its packing fraction, and runs") {
   const Folder folder;
   folder.write("grid.json", R"({"e": 0.9, "n": 3, "N": 1008, "seeds": 1, "tau_max": 10,
     "equilibrate": 10, "observables": ["temperature", "laguerre", "msd", "pair_distribution"],
@@ -129,7 +129,7 @@ TEST_CASE("plan: a dense mixture of small spheres is planned by what fills the b
 
 namespace {
 
-// What `plan` says and what `run` takes, in one worker.
+// Memory and disk as `plan` predicts them, and as `run` uses them with one worker.
 struct Taken {
   double planned = 0, measured = 0;
 };
@@ -153,7 +153,7 @@ Sizes sizes_of(const std::string& rest) {
 
 }  // namespace
 
-TEST_CASE("plan: memory and disk are said within 15 %, for every effect and observable") {
+TEST_CASE("plan: memory and disk are predicted within 15 %, for every effect and observable") {
   const std::string gas = R"("n": 0.4, "N": 10000, "tau_max": 10, "equilibrate": 10)";
   for (const std::string& scene : {
            gas,

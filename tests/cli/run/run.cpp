@@ -84,7 +84,7 @@ TEST_CASE("run: a larger tau_max gives the rows of one long run") {
 TEST_CASE("run: a larger tau_max goes on from the last checkpoint") {
   const Folder folder;
   run(folder, R"({"e": [0.8, 0.9], "n": 0.4, "N": 500, "seeds": 2, "tau_max": 37})");
-  // Were this row, before the checkpoint at tau = 30, computed again, it would not agree.
+  // If this row, before the checkpoint at tau = 30, were computed again, it would not agree.
   change(folder, "UPDATE samples SET time = time + 1 WHERE tau = 20");
   CHECK(run(folder, grid).exit_code == 0);
 }
@@ -92,7 +92,7 @@ TEST_CASE("run: a larger tau_max goes on from the last checkpoint") {
 TEST_CASE("run: a row that comes out different is damage") {
   const Folder folder;
   run(folder, R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 37})");
-  // After the checkpoint at tau = 30: computed again and compared.
+  // This row, after the checkpoint at tau = 30, is computed again and compared.
   change(folder, "UPDATE samples SET time = time + 1 WHERE tau = 35");
   const Outcome outcome =
       run(folder, R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 50})");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a run tells other programs: --log-json and --on-finish.
+// Reports of a run to other programs: --log-json and --on-finish.
 #include <doctest/doctest.h>
 
 #include <csignal>
@@ -45,7 +45,7 @@ const std::string small = R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 2, "tau_max
 
 }  // namespace
 
-TEST_CASE("run --log-json: a line an event, from the start to the end, and runs are appended") {
+TEST_CASE("run --log-json: one line per event, from start to end, and further runs are appended") {
   const Folder folder;
   plan(folder, small);
   REQUIRE(campaign(folder, {"run", "--log-json", "run.jsonl"}).exit_code == 0);
@@ -62,7 +62,7 @@ TEST_CASE("run --log-json: a line an event, from the start to the end, and runs 
   CHECK(count(events(folder / "run.jsonl"), "run_started") == 2);
 }
 
-TEST_CASE("run --log-json: a file that cannot be opened is said before anything runs") {
+TEST_CASE("run --log-json: a file that cannot be opened is reported before any job runs") {
   const Folder folder;
   plan(folder, small);
   const Outcome outcome = campaign(folder, {"run", "--log-json", "no/such/folder.jsonl"});
@@ -79,7 +79,8 @@ TEST_CASE("run --log-json: a full disk ends the log, not the run") {
   CHECK(outcome.err.find("goes on without it") != std::string::npos);
 }
 
-TEST_CASE("run --on-finish: the command learns how it ended, and does not change the exit code") {
+TEST_CASE(
+    "run --on-finish: the command learns how the run ended, and does not change the exit code") {
   const Folder folder;
   plan(folder, small);
   const Outcome outcome = campaign(
@@ -93,7 +94,7 @@ TEST_CASE("run --on-finish: the command learns how it ended, and does not change
   CHECK(outcome.err.find("exit code 7") != std::string::npos);
 }
 
-TEST_CASE("run --on-finish: also of a run that is interrupted, or that finds no store") {
+TEST_CASE("run --on-finish: the command also runs after an interruption, or without a store") {
   const Folder folder;
   CHECK(campaign(folder, {"run", "--on-finish", "echo $CAMPAIGN_EXIT_CODE > told"}).exit_code != 0);
   CHECK(text_of(folder / "told") != "0\n");
@@ -106,7 +107,7 @@ TEST_CASE("run --on-finish: also of a run that is interrupted, or that finds no 
   CHECK(text_of(folder / "told") == "143\n");
 }
 
-TEST_CASE("status --watch: plain where there is no terminal, and leaves at a signal") {
+TEST_CASE("status --watch: plain text without a terminal, and an end at a signal") {
   const Folder folder;
   plan(folder, small);
   Program watch(folder, {"status", "--watch", "0.2s"});
@@ -120,7 +121,7 @@ TEST_CASE("status --watch: plain where there is no terminal, and leaves at a sig
   CHECK(outcome.out.find("jobs, 0.0 % of the work done", first + 1) != std::string::npos);
 }
 
-TEST_CASE("status --watch --json: a line each time; a bad time is bad input") {
+TEST_CASE("status --watch --json: one line each time; a bad time is bad input") {
   const Folder folder;
   plan(folder, small);
   Program watch(folder, {"status", "--json", "--watch"});

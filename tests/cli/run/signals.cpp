@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Signals, and what a parent can have done to them.
+// Signals, and changes that a parent process can make to their handling.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <doctest/doctest.h>
 
@@ -28,7 +28,7 @@ void wait_for_cooling(const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("signals: each that asks to stop is an ordered stop") {
+TEST_CASE("signals: each signal that asks to stop leads to an ordered stop") {
   for (const int signal : {SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU}) {
     CAPTURE(signal);
     const Folder folder;
@@ -82,12 +82,13 @@ TEST_CASE("signals: a stop does not wait for a lock that another process holds")
     CHECK(std::chrono::steady_clock::now() - start < 10s);
     CHECK(outcome.err.find("out of memory") == std::string::npos);
   }
-  // What could not be given back is taken back by the next run, at no cost.
+  // The next run takes back jobs that could not be given back, at no cost.
   CHECK(campaign(folder, {"run"}).exit_code == 0);
   CHECK(number(folder, "SELECT sum(attempts) FROM jobs") == 0);
 }
 
-TEST_CASE("signals: a short --max-time stores something, or says what it needs") {
+TEST_CASE(
+    "signals: a run with a short --max-time stores something, or says how much time it needs") {
   const Folder folder;
   plan(folder, R"({"e": 0.9, "n": 0.4, "N": 40000, "seeds": 1, "tau_max": 100})");
   const Outcome first = campaign(folder, {"run", "--workers", "1", "--max-time", "0.05s"});
@@ -95,8 +96,8 @@ TEST_CASE("signals: a short --max-time stores something, or says what it needs")
   CHECK(first.out.find("--max-time is too short") != std::string::npos);
   CHECK(number(folder, "SELECT sum(cpu_seconds) FROM jobs") == 0);
 
-  // Nothing is expected of these jobs, so they are begun, and then stored. On a busy machine the
-  // time may be over before a worker has begun: then it is doubled.
+  // These jobs have no prediction, so they are begun and then stored. On a busy machine the time
+  // may be over before a worker has begun: then it is doubled.
   change(folder, "UPDATE jobs SET expected_cpu_seconds = NULL");
   const auto reached = [&] { return number(folder, "SELECT total(tau) FROM checkpoints"); };
   double before = 0;

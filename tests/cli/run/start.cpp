@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What jobs start from: the key start.
+// The key start: the states from which jobs start.
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -42,14 +42,14 @@ std::string complaint(const std::string& grid) {
 
 }  // namespace
 
-TEST_CASE("start: a crystal begins as one, without an equilibration") {
+TEST_CASE("start: a crystal starts as a lattice, without an equilibration") {
   const Folder folder;
   plan(folder, R"({"e": 0.9, "n": 0.5, "N": 864, "seeds": 1, "tau_max": 10, "start": "crystal",
     "observables": ["temperature", "pair_distribution"]})");
   CHECK(number(folder, "SELECT equilibrate FROM jobs WHERE job_id = 1") == 0);
   finish(folder);
   CHECK(number(folder, "SELECT tau_reached FROM jobs WHERE job_id = 1") == 0);
-  // A face-centred cubic lattice of 6^3 cells: no neighbour is nearer than a/sqrt(2), 12 are there.
+  // A face-centred cubic lattice of 6^3 cells: the nearest neighbours are 12, at a/sqrt(2).
   const double a = std::cbrt(864 / 0.5) / 6, nearest = a / std::sqrt(2.0);
   const std::string g = "FROM profiles WHERE job_id = 2 AND name = 'g' AND tau = 0 AND value > 0";
   CHECK(number(folder, "SELECT min(x) " + g + " AND x > 1") ==
@@ -57,12 +57,12 @@ TEST_CASE("start: a crystal begins as one, without an equilibration") {
   // 4 pi n sum r^2 g dr over the first shell is the number of nearest neighbours.
   CHECK(number(folder, "SELECT sum(value * 0.05 * 4 * 3.14159265358979 * 0.5 * x * x) " + g +
                            " AND x > 1 AND x < " + std::to_string(0.5 * (nearest + a))) ==
-        doctest::Approx(12).epsilon(0.002));  // x^2 for its mean over a bin
+        doctest::Approx(12).epsilon(0.002));  // x^2 replaces its mean over a bin
   CHECK(number(folder, "SELECT temperature FROM samples WHERE job_id = 2 AND tau = 0") ==
         doctest::Approx(2.0 / 3).epsilon(1e-13));
 }
 
-TEST_CASE("start: species of two temperatures begin at their ratio, and come together") {
+TEST_CASE("start: two temperatures begin at their ratio, and become equal") {
   const Folder folder;
   plan(folder, R"({"e": 1, "n": 0.2, "N": 4000, "seeds": 1, "tau_max": 20,
     "equilibrate": 10, "start": {"two temperatures": {"ratio": 9}}, "observables": "temperature",
@@ -76,8 +76,8 @@ TEST_CASE("start: species of two temperatures begin at their ratio, and come tog
   CHECK(ratio("0") == doctest::Approx(9).epsilon(1e-12));
   CHECK(ratio("1") < 9);
   CHECK(ratio("3") < ratio("1"));
-  // Equal up to noise: the ratio of two temperatures of 2000 particles each has a standard error of
-  // sqrt(2 * 2/(3 * 2000)) = 0.026; five of these.
+  // They are equal up to noise: the ratio of two temperatures of 2000 particles each has a standard
+  // error of sqrt(2 * 2/(3 * 2000)) = 0.026; five of these are allowed.
   CHECK(std::abs(ratio("20") - 1) < 0.13);
   CHECK(number(folder, "SELECT max(abs(temperature - 2.0 / 3)) FROM samples WHERE job_id = 2") <
         1e-12);
@@ -114,8 +114,8 @@ TEST_CASE("start: a shear wave decays by Enskog's viscosity") {
     "sample_every": 10, "observables": "temperature", "start": {"shear wave": {"amplitude": 1}},
     "snapshots_at": {"time": [0, 10, 30]}})");
   finish(folder);
-  // nu/sqrt(T) of Enskog's theory at n = 0.4, from which the gas itself differs by some 2 %. What
-  // is not flow is heat: 3/2 T + A^2/4 = 1. dA/dt = -nu k^2 A in steps of 0.01.
+  // nu/sqrt(T) of Enskog's theory at n = 0.4, from which the gas itself differs by some 2 %. The
+  // rest of the energy is heat: 3/2 T + A^2/4 = 1. dA/dt = -nu k^2 A in steps of 0.01.
   constexpr double nu = 0.9809, step = 0.01;
   const double k = 2 * std::numbers::pi / std::cbrt(16000 / 0.4);
   double a = 1;
@@ -125,14 +125,15 @@ TEST_CASE("start: a shear wave decays by Enskog's viscosity") {
     return a;
   };
   // Thermal motion has an amplitude of sqrt(2 T/N) = 0.009 in this mode. At the start it adds to
-  // the wave; later it is some five of them, and 2 % of the decay.
+  // the wave; later five times this amplitude is allowed, plus 2 % of the decay.
   constexpr double allowed = 0.045;
   CHECK(std::abs(amplitude(folder, "0") - 1) < allowed);
   CHECK(std::abs(amplitude(folder, "10") - to(0, 10)) < allowed);
   CHECK(std::abs(amplitude(folder, "30") - to(10, 30)) < allowed);
 }
 
-TEST_CASE("start: each is a series of its own, and one equilibration serves those that have one") {
+TEST_CASE(
+    "start: each start makes its own series, and all that equilibrate share an equilibration") {
   const Folder folder;
   plan(folder, R"({"e": 0.9, "n": 0.3, "N": 500, "seeds": 2, "tau_max": 10, "equilibrate": 10,
     "start": ["uniform", "shear wave", {"shear wave": {"amplitude": 0.2, "waves": 2}},
@@ -148,10 +149,10 @@ TEST_CASE("start: each is a series of its own, and one equilibration serves thos
   CHECK(campaign(folder, {"status"}).exit_code == 0);
   CHECK(campaign(folder, {"plot", "a2", "--out", "a2.csv"}).exit_code == 0);
   plan(folder, R"({"e": 0.9, "n": 0.3, "N": 500, "seeds": 2, "tau_max": 10, "equilibrate": 10})");
-  CHECK(number(folder, "SELECT count(*) FROM jobs") == 14);  // uniform is the usual
+  CHECK(number(folder, "SELECT count(*) FROM jobs") == 14);  // uniform is the default
 }
 
-TEST_CASE("start: a file that export wrote, in the store from then on") {
+TEST_CASE("start: a file that export wrote is in the store from then on") {
   const Folder folder;
   plan(folder, R"({"e": 0.8, "n": 0.3, "N": 500, "seeds": 1, "tau_max": 20, "equilibrate": 10,
     "snapshots_at": 7})");
@@ -168,18 +169,18 @@ TEST_CASE("start: a file that export wrote, in the store from then on") {
   CHECK(number(folder,
                "SELECT temperature FROM samples JOIN jobs USING (job_id) WHERE e = 0.9 AND "
                "tau = 0") == doctest::Approx(2.0 / 3).epsilon(1e-13));
-  // Its velocities are those of the snapshot, scaled: the same a2.
+  // The velocities are those of the snapshot, scaled, and have the same a2.
   CHECK(
       number(folder, "SELECT a2 FROM samples JOIN jobs USING (job_id) WHERE e = 0.9 AND tau = 0") ==
       doctest::Approx(number(folder, "SELECT a2 FROM samples WHERE job_id = 2 AND tau = 7"))
           .epsilon(1e-9));
   CHECK(campaign(folder, {"verify", "--recompute", "all"}).exit_code == 0);
 
-  // A file of other numbers is another job; the same numbers by another name are the same one.
+  // A file with other numbers is another job; the same numbers under another name are the same job.
   REQUIRE(shell(folder, "cp elsewhere.xyz gas.xyz").exit_code == 0);
   CHECK(shell(folder, "\"$campaign\" plan grid.json").out.find("nothing was added") !=
         std::string::npos);
-  // A damaged state comes back with the file.
+  // A damaged state is restored from the file.
   sabotage(folder,
            "UPDATE checkpoint_chunks SET bytes = zeroblob(length(bytes)) WHERE job_id IN "
            "(SELECT job_id FROM jobs WHERE start LIKE '%file%' AND kind = 'equilibration')");
@@ -189,8 +190,8 @@ TEST_CASE("start: a file that export wrote, in the store from then on") {
   CHECK(rows(folder) == before);
 }
 
-TEST_CASE("start: killed and resumed, on one thread and two, each ends with the same bits") {
-  // Large enough for two threads; a rough mixture, so that a file has all its columns.
+TEST_CASE("start: killed and resumed, on one thread or two, each start ends with the same bits") {
+  // A gas that is large enough for two threads; a rough mixture, so that a file has all columns.
   const std::string gas = R"("e": 0.8, "n": 0.4, "N": 2500, "seeds": 1, "equilibrate": 10,
     "checkpoint_every": 5, "effects": {"roughness": {"beta": 0.5, "q": 0.4},
     "mixture": {"fraction": 0.5, "diameter_ratio": 0.8, "mass_ratio": 0.5}})";
@@ -222,7 +223,7 @@ TEST_CASE("start: killed and resumed, on one thread and two, each ends with the 
   CHECK(rows(folder) == rows(calm));
 }
 
-TEST_CASE("start: what cannot be started is refused, with the place in the grid and in the file") {
+TEST_CASE("start: a bad start is refused, with its place in the grid and in the file") {
   const std::string rest = R"("e": 0.9, "n": 0.3, "N": 500, "tau_max": 10, )";
   CHECK(complaint("{" + rest + R"("seeds": 1, "start": {"file": "none.xyz"}})")
             .find("grid.json: /start/file: none.xyz: cannot be read: No such file") !=

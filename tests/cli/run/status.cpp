@@ -24,7 +24,7 @@ json status(const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("status: of a plan: everything is pending, run comes next") {
+TEST_CASE("status: after a plan all jobs are pending, and run comes next") {
   const Folder folder;
   plan(folder);
   const json now = status(folder);
@@ -34,7 +34,7 @@ TEST_CASE("status: of a plan: everything is pending, run comes next") {
   CHECK(now["next"] == json{"campaign run"});
 }
 
-TEST_CASE("status: of a complete campaign: tau_c beside what is published") {
+TEST_CASE("status: a complete campaign has tau_c beside published values") {
   const Folder folder;
   plan(folder);
   REQUIRE(campaign(folder, {"run"}).exit_code == 0);
@@ -48,7 +48,7 @@ TEST_CASE("status: of a complete campaign: tau_c beside what is published") {
   CHECK(now["next"] == json{"campaign figures"});
 }
 
-TEST_CASE("status: of a failure: the reason, what it blocks, and retry") {
+TEST_CASE("status: a failure is shown with its reason, the blocked jobs, and retry") {
   const Folder folder;
   plan(folder);
   change(folder, "UPDATE jobs SET status = 'failed', error = 'for a test' WHERE job_id = 1");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a stop keeps, and what a kill costs.
+// The work that a stop keeps, and the cost of a kill.
 #include <doctest/doctest.h>
 
 #include <csignal>
@@ -19,10 +19,10 @@ void plan(const Folder& folder, const std::string& grid) {
 
 }  // namespace
 
-TEST_CASE("stops: one near a synchronization keeps what was computed, without a checkpoint due") {
+TEST_CASE("stops: a stop near a synchronization keeps the work, also when no checkpoint is due") {
   const Folder folder;
-  // A synchronization is 200 000 collisions away at most, a fraction of a second, and ten stretches
-  // between which a worker looks whether it is to stop.
+  // The next synchronization is at most 200 000 collisions away, a fraction of a second and ten
+  // stretches after each of which a worker checks whether it is to stop.
   plan(folder, R"({"e": 0.9, "n": 0.4, "N": 40000, "seeds": 1, "tau_max": 100000, "equilibrate": 10,
                    "sample_every": 100, "checkpoint_every": 100000})");
   Program run(folder, {"run", "--workers", "1"});
@@ -40,7 +40,7 @@ TEST_CASE("stops: one near a synchronization keeps what was computed, without a 
 
 TEST_CASE("stops: ten kills in a row without progress are excused, three more fail the job") {
   const Folder folder;
-  // The first checkpoint, after three million collisions, is never reached between two kills.
+  // Between two kills the first checkpoint, after three million collisions, is never reached.
   plan(folder, R"({"e": 0.9, "n": 0.4, "N": 600000, "seeds": 1, "tau_max": 10})");
   Program run(folder, {"run", "--workers", "1"});
   double owner = 0;
@@ -62,7 +62,7 @@ TEST_CASE("stops: ten kills in a row without progress are excused, three more fa
   CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status = 'failed'") == 1);
 }
 
-TEST_CASE("stops: at a limit the gas goes on to a synchronization, however long that takes") {
+TEST_CASE("stops: at a time limit the gas goes on to a synchronization, however long that takes") {
   const Folder folder;
   plan(folder,
        R"({"e": 0.9, "n": 0.4, "N": 400000, "seeds": 1, "equilibrate": 10, "tau_max": 20})");
@@ -70,9 +70,9 @@ TEST_CASE("stops: at a limit the gas goes on to a synchronization, however long 
   Program run(folder, {"run", "--workers", "1", "--budget", "0.5s"});
   while (number(folder, "SELECT count(*) FROM jobs WHERE status = 'running'") == 0) sleep_for(5ms);
   sleep_for(300ms);
-  // The limit comes early in the first period of a second or more. A worker that did not run for
-  // six seconds expects many more for the rest of it, and would give up what it has if a signal
-  // asked it to stop.
+  // The limit comes early in the first period, which takes a second or more. A worker that did not
+  // run for six seconds expects the rest to take much longer than that, and would give up its work
+  // if a signal asked it to stop.
   const pid_t worker = run.workers().at(0);
   kill(worker, SIGSTOP);
   sleep_for(6s);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Accuracy asked for instead of a number of seeds.
+// A wanted accuracy in place of a number of seeds.
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
@@ -17,7 +17,7 @@ std::string grid(const std::string& target) {
   return R"({"e": 0.9, "n": 0.4, "N": 200, "seeds": 5, "tau_max": 10, "target": {)" + target + "}}";
 }
 
-// Of the means over a window, from the samples themselves.
+// The standard error of the means over a window, from the samples themselves.
 constexpr const char* standard_error = R"(
   WITH v AS (SELECT avg(a2) AS x FROM samples JOIN jobs USING (job_id)
              WHERE kind = 'cooling' AND samples.tau BETWEEN 5 AND 10 GROUP BY job_id)
@@ -42,13 +42,13 @@ TEST_CASE("targets: run adds seeds until the standard error is reached, and says
   CHECK(number(folder, standard_error) <= 0.006);
   CHECK(number(folder, realizations) > 5);
   CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status <> 'done'") == 0);
-  // Once met, nothing is left to do.
+  // Once the target is met, nothing is left to do.
   const double before = number(folder, realizations);
   CHECK(campaign(folder, {"run"}).exit_code == 0);
   CHECK(number(folder, realizations) == before);
 }
 
-TEST_CASE("targets: the added runs are those that more seeds in the grid would have been") {
+TEST_CASE("targets: the added runs are the same as those of more seeds in the grid") {
   const Folder folder;
   run(folder, R"("a2": {"tau": [5, 10], "se": 0.006})");
   const Folder other;
@@ -63,7 +63,7 @@ TEST_CASE("targets: the added runs are those that more seeds in the grid would h
   CHECK(number(folder, last) == number(other, last));
 }
 
-TEST_CASE("targets: a budget that is spent first ends with 3, and the next run goes on") {
+TEST_CASE("targets: a run whose budget is spent ends with 3, and the next run goes on") {
   const Folder folder;
   const std::string target = R"("a2": {"tau": [5, 10], "se": 1e-4})";
   const Outcome outcome = run(folder, target, {"run", "--workers", "2", "--budget", "0.5s"});
@@ -78,7 +78,7 @@ TEST_CASE("targets: a budget that is spent first ends with 3, and the next run g
   CHECK(number(folder, realizations) > before);
 }
 
-TEST_CASE("targets: plan and status tell from the pilot runs what is still to come") {
+TEST_CASE("targets: plan and status predict the remaining work from the pilot runs") {
   const Folder folder;
   folder.write("grid.json", grid(R"("a2": {"tau": [5, 10], "se": 1e-4})"));
   CHECK(campaign(folder, {"plan", "grid.json"}).out.find("A target's pilot runs") !=
@@ -95,7 +95,7 @@ TEST_CASE("targets: plan and status tell from the pilot runs what is still to co
         target["cpu_seconds_unplanned"].get<double>());
 }
 
-TEST_CASE("targets: what the pilot runs let expect is kept beside what it took") {
+TEST_CASE("targets: the prediction from the pilot runs is kept beside the outcome") {
   const Folder folder;
   const Outcome outcome = run(folder, R"("a2": {"tau": [5, 10], "se": 0.006})");
   CHECK(outcome.out.find("were expected after the pilot runs") != std::string::npos);
@@ -117,7 +117,7 @@ TEST_CASE("targets: plan --dry-run says that pilot runs come first") {
   CHECK(outcome.out.find("a2, tau 5 to 10") != std::string::npos);
   CHECK(outcome.out.find("pilot runs, the 5 seeds of the grid, come first") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(folder.store()));
-  // The same of a target that a store does not have yet.
+  // The same for a target that the store does not have yet.
   folder.write("other.json", R"({"e": 0.8, "n": 0.4, "N": 200, "seeds": 5, "tau_max": 10})");
   campaign(folder, {"plan", "other.json"});
   const Outcome later = campaign(folder, {"plan", "grid.json", "--dry-run"});
@@ -125,7 +125,7 @@ TEST_CASE("targets: plan --dry-run says that pilot runs come first") {
   CHECK(number(folder, realizations) == 5);
 }
 
-TEST_CASE("targets: what is to come is what is pending and what is not planned yet") {
+TEST_CASE("targets: the remaining work includes pending jobs and jobs that are not planned yet") {
   const Folder folder;
   folder.write("grid.json", grid(R"("a2": {"tau": [5, 10], "se": 1e-4})"));
   const auto target = [&] {
@@ -141,7 +141,7 @@ TEST_CASE("targets: what is to come is what is pending and what is not planned y
   CHECK(later["cpu_seconds_unplanned"].get<double>() > 0);
 }
 
-TEST_CASE("targets: one that more runs cannot reach says why") {
+TEST_CASE("targets: for a target that more runs cannot reach, the message says why") {
   const Folder folder;
   const Outcome outcome = run(folder, R"("tau_c": {"se": 1})");
   CHECK(outcome.exit_code == 1);

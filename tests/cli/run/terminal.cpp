@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What the program shows, where it shows it, and what happens when nothing takes it.
+// The program's output on a terminal, and what happens when its output cannot be written.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -27,7 +27,7 @@ void plan(const Folder& folder, const std::string& grid) {
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
 }
 
-// A program whose stdout and stderr are a terminal of 80 columns and so many lines.
+// A program whose stdout and stderr are a terminal of 80 columns and this many lines.
 class OnTerminal {
  public:
   OnTerminal(const Folder& folder, std::vector<std::string> words, unsigned short lines) {
@@ -52,13 +52,13 @@ class OnTerminal {
   OnTerminal(const OnTerminal&) = delete;
   OnTerminal& operator=(const OnTerminal&) = delete;
 
-  // Takes the terminal away.
+  // Closes the terminal.
   void hang_up() {
     if (screen_ >= 0) close(screen_);
     screen_ = -1;
   }
 
-  // All that was written until the program closed the terminal, or for so long.
+  // All output until the program closed the terminal, or for this long.
   std::string read_for(std::chrono::milliseconds time) {
     const auto until = std::chrono::steady_clock::now() + time;
     std::string text;
@@ -85,7 +85,7 @@ class OnTerminal {
   pid_t id_ = 0;
 };
 
-// A terminal sequence that draws no attention: the program's own are those of its bars and colours.
+// A terminal sequence that the program does not use itself for its bars and colours.
 constexpr const char* sequence = "char(27) || ']0;pwned' || char(7)";
 
 bool reaches_terminal(const std::string& text) {
@@ -119,7 +119,7 @@ TEST_CASE("terminal: a run with stdin, stdout and stderr closed does its work") 
   CHECK(campaign(folder, {"verify"}).exit_code == 0);
 }
 
-TEST_CASE("terminal: no text of a store reaches the terminal as a command") {
+TEST_CASE("terminal: text of a store does not reach the terminal as a command") {
   const Folder folder;
   plan(folder, small_grid);
   REQUIRE(campaign(folder, {"run"}).exit_code == 0);
@@ -145,7 +145,7 @@ TEST_CASE("terminal: no text of a store reaches the terminal as a command") {
   }
 }
 
-TEST_CASE("terminal: host and error of a running job are shown without their commands") {
+TEST_CASE("terminal: host and error of a running job are shown without terminal commands") {
   const Folder folder;
   plan(folder, small_grid);
   change(folder,
@@ -159,7 +159,7 @@ TEST_CASE("terminal: host and error of a running job are shown without their com
   }
 }
 
-TEST_CASE("terminal: more workers than lines are shown as one line") {
+TEST_CASE("terminal: more workers than the terminal has lines are shown as one line") {
   const Folder folder;
   plan(folder, R"({"e": 0.8, "n": 0.4, "N": 4000, "seeds": 12, "tau_max": 60})");
   OnTerminal run(folder, {"run", "--workers", "8"}, 6);
@@ -167,10 +167,11 @@ TEST_CASE("terminal: more workers than lines are shown as one line") {
   CHECK(shown.find("jobs done") != std::string::npos);
   CHECK(shown.find("waiting") == std::string::npos);
   CHECK(shown.find("collisions/s") == std::string::npos);
-  CHECK(shown.find("\033[9A") == std::string::npos);  // never up by more lines than there are
+  CHECK(shown.find("\033[9A") ==
+        std::string::npos);  // the cursor never moves up by more lines than there are
 }
 
-TEST_CASE("terminal: one that is gone ends a run in order, and the next run goes on") {
+TEST_CASE("terminal: closing it stops a run in order, and the next run goes on") {
   const Folder folder;
   plan(folder, R"({"e": 0.9, "n": 0.4, "N": 1000, "seeds": 2, "tau_max": 2000})");
   OnTerminal run(folder, {"run", "--workers", "2"}, 24);
@@ -188,7 +189,7 @@ TEST_CASE("terminal: suggested commands can be pasted, from any folder and for a
   const std::filesystem::path place = folder / "my runs/a b";
   std::filesystem::create_directories(place);
   folder.write("my runs/a b/the grid's.json", small_grid);
-  // Pastes each line that is a command, however it is introduced.
+  // Pastes each line that is a command, whatever words introduce it.
   const Outcome outcome = shell(folder, R"(
     cd 'my runs/a b'
     campaign() { "$campaign" "$@"; }

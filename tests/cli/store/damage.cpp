@@ -26,14 +26,14 @@ void run(const Folder& folder, const char* grid) {
   REQUIRE(campaign(folder, {"run"}).exit_code == 0);
 }
 
-// The job of this kind and seed 1.
+// The job of this kind with seed 1.
 std::string job(const char* kind) {
   return std::string("(SELECT job_id FROM jobs WHERE seed = 1 AND kind = '") + kind + "')";
 }
 
 const std::string cut_short = "UPDATE checkpoint_chunks SET bytes = substr(bytes, 1, 1000)";
 
-// A damaged checkpoint is found, the job fails rather than use it, retry and run repair it.
+// A damaged checkpoint is found; the job fails rather than use it; retry and run repair it.
 void check(const std::string& damage) {
   const Folder folder;
   run(folder, short_grid);
@@ -91,7 +91,7 @@ TEST_CASE("damage: cooling does not start from a damaged equilibration") {
   CHECK(campaign(folder, {"verify"}).exit_code == 0);
 }
 
-TEST_CASE("damage: no command blames a job, or what was typed, for a damaged file") {
+TEST_CASE("damage: no command blames a job or the command line for a damaged file") {
   const Folder folder;
   run(folder, short_grid);
   plan(folder, R"({"e": 0.9, "n": 0.4, "N": 500, "seeds": [1, 2], "tau_max": 30})");

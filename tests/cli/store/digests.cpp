@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Rows that are not as they were written: found, refused, put right; and finished jobs once more.
+// Rows that have changed are found, refused and repaired; finished jobs are computed again.
 #include <doctest/doctest.h>
 
 #include <bit>
@@ -27,7 +27,7 @@ void run(const Folder& folder, const char* text = grid) {
   REQUIRE(campaign(folder, {"run"}).exit_code == 0);
 }
 
-// Flips the lowest bit of a real where it first stands in the file.
+// Flips the lowest bit of a real at its first place in the file.
 void flip_a_bit_of(const Folder& folder, double value) {
   auto bits = std::bit_cast<std::uint64_t>(value);
   std::string form(sizeof bits, '\0');  // as SQLite writes it
@@ -52,13 +52,13 @@ const char* const harm[] = {
     "DELETE FROM samples WHERE job_id = 3 AND tau = 6",
     "UPDATE results SET tau_c = 3 WHERE job_id = 3",
     "UPDATE invariants SET past_events = 7 WHERE job_id = 3",
-    // By less than two C libraries may differ in.
+    // A change that is smaller than the differences between two C libraries.
     "UPDATE samples SET gamma_ratio = gamma_ratio * (1 + 1e-14) WHERE job_id = 3 AND tau = 4",
 };
 
 }  // namespace
 
-TEST_CASE("digests: a changed row is found, named, not averaged, and put right") {
+TEST_CASE("digests: a changed row is found, named, not averaged, and repaired") {
   for (const char* sql : harm) {
     CAPTURE(std::string(sql));
     const Folder folder;
@@ -85,7 +85,7 @@ TEST_CASE("digests: a changed row is found, named, not averaged, and put right")
   }
 }
 
-TEST_CASE("digests: no average takes a changed row in, and a row itself is shown with a warning") {
+TEST_CASE("digests: a changed row enters no average, and is itself shown with a warning") {
   struct Case {
     const char* harm;
     std::vector<std::string> refused, shown;
@@ -133,7 +133,7 @@ TEST_CASE("digests: no average takes a changed row in, and a row itself is shown
   }
 }
 
-TEST_CASE("digests: retry computes such a job anew") {
+TEST_CASE("digests: retry computes a job with changed rows again") {
   const Folder folder;
   run(folder);
   const std::string before = rows(folder);
@@ -147,7 +147,7 @@ TEST_CASE("digests: retry computes such a job anew") {
   CHECK(rows(folder) == before);
 }
 
-TEST_CASE("digests: finished jobs come out the same when computed again") {
+TEST_CASE("digests: finished jobs have the same rows when computed again") {
   const Folder folder;
   run(folder);
   const Outcome all = campaign(folder, {"verify", "--recompute", "all"});
@@ -165,19 +165,19 @@ TEST_CASE("digests: finished jobs come out the same when computed again") {
   CHECK(campaign(folder, {"verify", "--recompute", "99"}).exit_code == 2);
 }
 
-TEST_CASE("digests: a value that was wrong when it was written is found by computing it again") {
+TEST_CASE("digests: a value that was already wrong when written is found by computing it again") {
   const Folder folder;
   run(folder);
   const std::string before = rows(folder);
   change(folder, "UPDATE samples SET a4 = a4 + 1e-9 WHERE job_id = 4 AND tau = 2");
-  CHECK(campaign(folder, {"verify"}).exit_code == 0);  // no digest says otherwise
+  CHECK(campaign(folder, {"verify"}).exit_code == 0);  // the digests match
   const Outcome outcome = campaign(folder, {"verify", "--recompute", "all"});
   CHECK(outcome.exit_code == 1);
   CHECK(holds(outcome.out, "job 4 "));
   CHECK(holds(outcome.out, "tau = 2: a4 is "));
   CHECK(holds(outcome.out, "verify --recompute all --repair"));
 
-  // What verify --repair alone cannot see, as the digests are those of the wrong value.
+  // verify --repair alone cannot see this, as the digests are those of the wrong value.
   CHECK(campaign(folder, {"verify", "--repair"}).exit_code == 0);
   CHECK(rows(folder) != before);
   const Outcome repaired = campaign(folder, {"verify", "--recompute", "4", "--repair"});
@@ -189,7 +189,7 @@ TEST_CASE("digests: a value that was wrong when it was written is found by compu
   CHECK(campaign(folder, {"verify", "--recompute", "all", "--repair"}).exit_code == 0);
 }
 
-TEST_CASE("digests: rows of an older program have none, and get one") {
+TEST_CASE("digests: rows of an older program have no digest, and get one") {
   const Folder folder;
   run(folder);
   change(folder, "SELECT 1");
@@ -202,7 +202,7 @@ TEST_CASE("digests: rows of an older program have none, and get one") {
   CHECK_FALSE(holds(with.out, "digest"));
 }
 
-TEST_CASE("digests: a flipped bit of a job's parameters is turned back") {
+TEST_CASE("digests: a flipped bit in a job's parameters is repaired") {
   const Folder folder;
   folder.write("grid.json", grid);
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
@@ -218,7 +218,7 @@ TEST_CASE("digests: a flipped bit of a job's parameters is turned back") {
   CHECK(number(folder, "SELECT max(tau) FROM samples WHERE job_id = 3") == 6);
 }
 
-TEST_CASE("digests: an index that disagrees with its table is made anew") {
+TEST_CASE("digests: an index that disagrees with its table is rebuilt") {
   const Folder folder;
   folder.write("grid.json", grid);
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
@@ -233,7 +233,7 @@ TEST_CASE("digests: an index that disagrees with its table is made anew") {
   CHECK(campaign(folder, {"run"}).exit_code == 0);
 }
 
-TEST_CASE("digests: what SQLite is told of the sizes of tables is made anew") {
+TEST_CASE("digests: SQLite's statistics of table sizes are rebuilt") {
   const Folder folder;
   folder.write("grid.json", grid);
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// No space left: a clear error, a store that is sound, and the same command goes on when there is
+// A full disk: the error is clear, the store is sound, and the same command goes on when there is
 // room again.
 #include <doctest/doctest.h>
 
@@ -12,7 +12,7 @@ using namespace haff::tests;
 
 namespace {
 
-// Checkpoints of 210 kB each, six of them: more than the room given below.
+// Six checkpoints of 210 kB each: more than the room given below.
 constexpr const char* grid = R"({"e": [0.8, 0.9], "n": 0.4, "N": 4000, "seeds": 2, "tau_max": 30})";
 
 std::string undisturbed_rows() {
@@ -28,7 +28,7 @@ std::string undisturbed_rows() {
 TEST_CASE("full disk: a full file system ends a run with an error and a sound store") {
   const Folder folder;
   folder.write("grid.json", grid);
-  // A name space of its own, as its own root: no rights are needed where the kernel allows that.
+  // In a namespace of its own as its own root: needs no rights where the kernel allows it.
   if (shell(folder, "unshare --user --map-root-user --mount true").exit_code != 0) {
     MESSAGE("SKIPPED: this machine does not let a user mount a tmpfs");
     return;
@@ -67,7 +67,7 @@ TEST_CASE("full disk: a limit on the size of files ends a run with an error and 
   const Folder folder;
   folder.write("grid.json", grid);
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
-  // In blocks of 512 bytes.
+  // The limit is in blocks of 512 bytes.
   const Outcome limited = shell(folder, "ulimit -f 1000; \"$campaign\" run");
   CHECK(limited.exit_code == 1);
   CHECK(limited.err.find("disk is full") != std::string::npos);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A store made elsewhere: its text reaches no shell, no script, no page and no terminal as
-// a command.
+// A store made elsewhere: its text does not reach a shell, a script, a page or a terminal as a
+// command.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <doctest/doctest.h>
 
@@ -17,8 +17,8 @@ using namespace haff::tests;
 
 namespace {
 
-// Ends a string of gnuplot, a tag and an attribute, and clears a terminal; as text of a table that
-// is JSON or has a fixed set of words SQLite refuses it, unless it is told not to check.
+// Ends a string of gnuplot, a tag and an attribute, and clears a terminal. SQLite refuses it in a
+// column that is JSON or has a fixed set of words, unless checks are switched off.
 const std::string attack =
     "x'\nEND\nsystem(\"touch\tpwned\")\n`touch pwned`\n!touch pwned\n#\"$(touch pwned)"
     "</title><script>alert(1)</script>\" onload='x'\x1b[2J\x1b]0;owned\a\u009b2J";
@@ -38,7 +38,7 @@ std::vector<Column> text_columns(const Folder& folder) {
   return columns;
 }
 
-// The attack in one row of the column. False if the column cannot take it (a key, say).
+// Puts the attack into one row of the column. False if the column cannot take it (such as a key).
 bool poison(const Folder& folder, const Column& column) {
   SQLite::Database store(folder.store().string(), SQLite::OPEN_READWRITE, 10'000);
   store.exec("PRAGMA ignore_check_constraints = ON");
@@ -69,7 +69,7 @@ bool is_clean(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("hostile store: text of every column, by every way out") {
+TEST_CASE("hostile store: text in any column, through any command") {
   const Folder made;
   made.write("grid.json", R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 5, "tau_max": 20,
     "profiles_every": 10, "fields_at": 20, "target": {"a2": {"se": 0.5, "tau": [5, 15]}},
@@ -101,7 +101,7 @@ TEST_CASE("hostile store: text of every column, by every way out") {
           {"export", "2"}}) {
       CAPTURE(words.front());
       const Outcome outcome = campaign(folder, words);
-      CHECK(outcome.exit_code < 128);  // no signal
+      CHECK(outcome.exit_code < 128);  // not ended by a signal
       CHECK(is_clean(outcome.out));
       CHECK(is_clean(outcome.err));
     }

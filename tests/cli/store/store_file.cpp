@@ -30,7 +30,7 @@ void wait_for_work(const Folder& folder) {
     sleep_for(5ms);
 }
 
-// What becomes of a run from under which the store is taken by this command.
+// Checks a run whose store this command takes away.
 void check_vanished(const std::string& command, const std::string& what) {
   CAPTURE(command);
   const Folder folder;
@@ -54,7 +54,7 @@ void check_vanished(const std::string& command, const std::string& what) {
 
 }  // namespace
 
-TEST_CASE("store file: deleted, moved or replaced under a run, it is noticed and saved") {
+TEST_CASE("store file: the loss of the store during a run is noticed, and the store is saved") {
   check_vanished("rm campaign.db*", "was deleted or moved away");
   check_vanished("mv campaign.db other.db", "was deleted or moved away");
   check_vanished("mv old.db campaign.db", "was replaced by another file");
@@ -76,7 +76,7 @@ TEST_CASE("store file: a backup during a run is sound and can be run") {
   CHECK(run.wait().exit_code == 143);
 }
 
-TEST_CASE("store file: what took the place of a running store is as it was put there") {
+TEST_CASE("store file: a file that replaced a running store stays as it was") {
   for (const char* command : {"mv old.db campaign.db", "cp old.db campaign.db"}) {
     CAPTURE(std::string(command));
     const Folder folder;
@@ -91,7 +91,7 @@ TEST_CASE("store file: what took the place of a running store is as it was put t
   }
 }
 
-TEST_CASE("store file: emptied under a run, it is no success") {
+TEST_CASE("store file: a run whose store is emptied does not succeed") {
   const Folder folder;
   plan(folder, grid);
   Program run(folder, {"run", "--workers", "1"});
@@ -110,7 +110,7 @@ TEST_CASE("store file: a backup put over a killed run is not mixed with the log 
     const Program run(folder, {"run", "--workers", "1"});
     wait_for_work(folder);
     for (const pid_t worker : run.workers()) kill(worker, SIGKILL);
-  }  // and the run itself
+  }  // the run itself is killed, too
   REQUIRE(std::filesystem::exists(folder / "campaign.db-wal"));
   shell(folder, "cp backup.db campaign.db");
   for (const char* command : {"status", "verify", "run", "retry"}) {
@@ -123,19 +123,21 @@ TEST_CASE("store file: a backup put over a killed run is not mixed with the log 
   CHECK(campaign(folder, {"verify"}).exit_code == 0);
 }
 
-TEST_CASE("store file: a backup put in the place of a killed plan is not mixed with its journal") {
+TEST_CASE(
+    "store file: a backup that replaces the store of a killed plan is not mixed with its journal") {
   const Folder folder;
   plan(folder, short_grid);
   shell(folder, "cp campaign.db early.db");
   plan(folder, R"({"e": 0.9, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 5})");
   REQUIRE(campaign(folder, {"backup", "backup.db"}).exit_code == 0);
-  // A transaction that has reached the file, as memory holds few of its pages, when power fails.
+  // A transaction that has reached the file, since memory holds few of its pages, when power fails.
   shell(folder, R"(sqlite3 campaign.db "PRAGMA cache_size = 1; BEGIN;
       UPDATE jobs SET error = hex(randomblob(20000));" \
       ".shell cp campaign.db cut.db; cp campaign.db-journal cut.db-journal")");
   REQUIRE(std::filesystem::exists(folder / "cut.db-journal"));
   shell(folder, "mkdir put; cp cut.db* put");
-  CHECK(campaign(folder, {"verify", "--store", "put/cut.db"}).exit_code == 0);  // its own: put back
+  CHECK(campaign(folder, {"verify", "--store", "put/cut.db"}).exit_code ==
+        0);  // its own journal: undone
   for (const char* copy : {"early.db", "backup.db"}) {
     CAPTURE(std::string(copy));
     shell(folder, std::string("rm put/*; cp cut.db-journal put; cp ") + copy + " put/cut.db");
@@ -151,7 +153,7 @@ TEST_CASE("store file: a backup put in the place of a killed plan is not mixed w
   }
 }
 
-TEST_CASE("store file: a copy made without its log is known as one") {
+TEST_CASE("store file: a copy made without its log is recognized") {
   const Folder folder;
   plan(folder, grid);
   Program run(folder, {"run", "--workers", "1"});
@@ -170,7 +172,7 @@ TEST_CASE("store file: a copy made without its log is known as one") {
   CHECK(campaign(folder, {"verify", "--store", "copy.db"}).exit_code == 0);
 }
 
-TEST_CASE("store file: after a run no log is beside it") {
+TEST_CASE("store file: after a run there is no log beside it") {
   const Folder folder;
   plan(folder, short_grid);
   CHECK(campaign(folder, {"run"}).exit_code == 0);
@@ -178,7 +180,7 @@ TEST_CASE("store file: after a run no log is beside it") {
   CHECK_FALSE(std::filesystem::exists(folder / "campaign.db-shm"));
 }
 
-TEST_CASE("store file: what is no file is bad input, what may not be written is not") {
+TEST_CASE("store file: a path that is not a file is bad input, a store with two names a failure") {
   const Folder folder;
   folder.write("grid.json", short_grid);
   shell(folder, "mkfifo pipe; mkdir folder");
