@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A small campaign whose disk loses power or fails, over and over: what is there afterwards is
-// sound, and the same commands end with the same rows.
+// A small campaign whose disk loses power or fails, again and again. Afterwards the store must be
+// sound, and the same commands must end with the same rows.
 //
 //   crash power --seed 1 --images 100           images of the disk after power loss
 //   crash power --seed 1 --only 37              one of them again; its folder is kept
@@ -11,9 +11,8 @@
 //   crash storm --seed 1 --storms 10            many commands at once, killed at any moment
 //   crash clock                                 two runs at once whose clocks differ
 //
-// An image or a case follows from its seed and its number alone; the record that images are made
-// from is that of several processes, and differs from one run to the next in the order of what they
-// wrote.
+// An image or a case follows from its seed and its number alone. Images, however, are made from a
+// record of several processes, whose writes may come in another order in each run.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -75,8 +74,8 @@ class PowerLoss {
   }
 
  private:
-  // Around a sync, a truncation, a file made or deleted more often than elsewhere, and more often
-  // in the short plan than its share.
+  // Moments around a sync, a truncation, or the creation or deletion of a file are more frequent
+  // than others, and so are moments in the short plan.
   std::size_t moment(std::mt19937_64& random) const {
     const auto way = random() % 4;
     if (way == 0) return 1 + random() % planned_;
@@ -97,7 +96,7 @@ class PowerLoss {
 struct Failure {
   const char* kind;
   std::vector<int> errors;
-  int calls;  // of a command, about: which one fails is chosen from so many
+  int calls;  // about so many per command; the failing one is chosen among them
 };
 
 const std::vector<Failure> failures{
@@ -121,7 +120,7 @@ class FailingCalls {
     const std::string command = commands[random() % commands.size()];
     const Failure& failure = failures[random() % failures.size()];
     const int error = failure.errors[random() % failure.errors.size()];
-    // The first ones more often: opening a store is full of corners.
+    // The first calls fail more often, since opening a store has many special cases.
     const auto number =
         1 + random() % (random() % 2 == 0 ? static_cast<unsigned>(failure.calls)
                                           : static_cast<unsigned>(failure.calls) / 4 + 1);
@@ -130,7 +129,8 @@ class FailingCalls {
     return fault({command, failure.kind, number, error, for_ever, in_worker}, folder);
   }
 
-  // Each call of a kind in turn, of each command: how many ended wrong.
+  // Lets each call of a kind fail in turn, in each command. Returns how many commands ended
+  // wrongly.
   int every(const std::string& kind, unsigned stride) const {
     int faults = 0;
     for (const Failure& failure : failures)
@@ -172,14 +172,14 @@ class FailingCalls {
         ++faults;
         fmt::print("{}\n", *wrong);
       }
-      if (failed_ == before) return faults;  // the command makes no so many calls
+      if (failed_ == before) return faults;  // the command does not make so many calls
     }
   }
 
   std::optional<std::string> fault(const Case& one, const std::filesystem::path& folder) const {
     const bool plans = one.command.starts_with("plan");
     const bool runs = is_run(one.command);
-    // EINTR for ever is no failure, but a machine that does nothing else.
+    // EINTR for ever would not be a failure but a machine that does nothing else.
     const bool for_ever = one.for_ever && one.error != EINTR;
     const char* where = runs && one.in_worker ? "worker" : "main";
 
@@ -190,7 +190,7 @@ class FailingCalls {
         folder, one.command,
         fmt::format("HAFF_FAIL={}:{}:{}:{} HAFF_FAIL_IN={} HAFF_FAILED='{}'", one.kind, one.number,
                     one.error, for_ever ? "ever" : "once", where, (folder / "failed").string()));
-    if (!std::filesystem::exists(folder / "failed")) return std::nullopt;  // there was no such call
+    if (!std::filesystem::exists(folder / "failed")) return std::nullopt;  // no such call was made
     ++failed_;
     const auto named = [&](const std::string& what) {
       return fmt::format("{}: {} {} of {} fails {} with errno {}, exit {}: {}\nIt said: {}",
@@ -213,8 +213,8 @@ class FailingCalls {
 
 // ---- clocks that differ -----------------------------------------------------------------------
 
-// A run in another process namespace, as in a container, can tell nothing of the first one's
-// workers but by their leases, and the times in these are those of other clocks.
+// A run in another process namespace, as in a container, knows the workers of the first run only by
+// their leases, whose times come from another clock.
 class Clocks {
  public:
   Clocks() {
@@ -277,7 +277,7 @@ struct Options {
   unsigned long seed = 1;
   int count = 40;
   std::optional<int> only;
-  std::string every;  // kind of calls
+  std::string every;  // the kind of calls
   unsigned stride = 1;
 };
 

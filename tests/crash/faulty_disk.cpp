@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A disk that keeps a record of all that is asked of it, and can be told to fail: SQLite's default
-// VFS and allocator in the program `campaign_faulty`, which is `campaign` but for this file. Told
-// by the environment, in all processes of a run:
+// A disk that records all requests and can be made to fail: it replaces SQLite's default VFS and
+// allocator in the program `campaign_faulty`, which otherwise is `campaign`. Environment variables
+// control it in all processes of a run:
 //
-//   HAFF_TRACE=FILE                     append what is written, truncated, synced, made and deleted
+//   HAFF_TRACE=FILE                     append all writes, truncations, syncs, creations, deletions
 //   HAFF_FAIL=KIND:N:ERRNO:once|ever    let the N-th call of a kind fail in each process;
 //                                       kinds: read, write, sync, truncate, open, delete, allocate
 //   HAFF_FAIL_IN=main|worker            only in these processes
-//   HAFF_FAILED=FILE                    made when a call was made to fail
-//   HAFF_CLOCK=SECONDS                  the clock on the wall, as SQLite asks for it, is so much
-//   ahead
+//   HAFF_FAILED=FILE                    made when a call has failed on purpose
+//   HAFF_CLOCK=SECONDS                  SQLite's wall clock is this much ahead
 //
-// The record is one for all processes, in the order of what happened (trace.hpp).
+// All processes share one record, in the order of events (trace.hpp).
 #include <fcntl.h>
 #include <sqlite3.h>
 #include <sys/uio.h>
@@ -32,7 +31,7 @@
 namespace haff::tests {
 namespace {
 
-// ---- what fails -------------------------------------------------------------------------------
+// ---- failures ---------------------------------------------------------------------------------
 
 struct Order {
   std::string kind;
@@ -94,7 +93,7 @@ bool fails(const char* kind) {
   return does;
 }
 
-// ---- what is recorded -------------------------------------------------------------------------
+// ---- the record -------------------------------------------------------------------------------
 
 void record(Event event, TracedFile file, sqlite3_int64 offset = 0, const void* data = nullptr,
             int size = 0) {
@@ -117,7 +116,7 @@ void record(Event event, TracedFile file, sqlite3_int64 offset = 0, const void* 
 struct File {
   sqlite3_file base;
   TracedFile which;
-  int error;  // of the last call that was made to fail, or 0
+  int error;  // of the last call that failed on purpose, or 0
 };
 
 sqlite3_vfs* system_below = nullptr;
@@ -136,7 +135,7 @@ bool fails(const char* kind, sqlite3_file* file) {
   return does;
 }
 
-// As SQLite's own VFS answers: EIO is a corrupt file system to it.
+// SQLite's own VFS reports EIO as a corrupt file system.
 int read(sqlite3_file* file, void* to, int size, sqlite3_int64 offset) {
   if (fails("read", file)) return order().error == EIO ? SQLITE_IOERR_CORRUPTFS : SQLITE_IOERR_READ;
   return below(file)->pMethods->xRead(below(file), to, size, offset);
@@ -234,7 +233,7 @@ void* reallocate(void* old, int size) {
   return fails("allocate") ? nullptr : system_memory.xRealloc(old, size);
 }
 
-// Before main(), and before anything uses SQLite.
+// Runs before main(), and before SQLite is used.
 const bool installed = [] {
   sqlite3_config(SQLITE_CONFIG_GETMALLOC, &system_memory);
   sqlite3_mem_methods memory = system_memory;

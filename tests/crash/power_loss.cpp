@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t sector = 512, page = 4096;
 
-// What happens to one piece of a write.
+// The fate of one piece of a write.
 enum class Piece { lost, arrives, zero, junk };
 
 struct FileOnDisk {
   std::string synced;
   std::vector<const Operation*> pending;
-  bool is_named = true;  // its folder knows of it
+  bool is_named = true;  // whether the folder has an entry for the file
 };
 
 double chance(std::mt19937_64& random) {
@@ -122,7 +122,7 @@ void make_image(const std::vector<Operation>& operations, std::size_t count, Fat
                 std::mt19937_64& random, const std::filesystem::path& folder,
                 const std::string& name) {
   std::map<TracedFile, FileOnDisk> files;
-  std::map<TracedFile, FileOnDisk> deleted;  // whose folder may not know that yet
+  std::map<TracedFile, FileOnDisk> deleted;  // whose folder may still have an entry for them
   const auto folder_is_synced = [&] {
     deleted.clear();
     for (auto& [which, file] : files) file.is_named = true;
@@ -144,7 +144,7 @@ void make_image(const std::vector<Operation>& operations, std::size_t count, Fat
         FileOnDisk& file = files[which];
         for (const Operation* each : file.pending) apply_whole(file.synced, *each, random);
         file.pending.clear();
-        // SQLite syncs the folder of a journal with its first sync, the only file it makes then.
+        // SQLite syncs the folder with the first sync of a journal or log, which it has just made.
         if (which == TracedFile::journal || which == TracedFile::log) folder_is_synced();
         file.is_named = true;
         break;

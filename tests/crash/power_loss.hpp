@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a disk may hold after power was lost, made from a record of what was asked of it.
+// The possible contents of a disk after power loss, made from a record of the requests to it.
 #pragma once
 
 #include <cstddef>
@@ -20,24 +20,24 @@ struct Operation {
 
 std::vector<Operation> read_trace(const std::filesystem::path& file);
 
-// What became of writes that were not synced. A file is synced up to its last sync; from then on
-// anything may have happened, and so it may to making and deleting a file without syncing its
-// folder.
+// The fate of writes that were not synced. A file is certain up to its last sync; what was written
+// later may be on the disk or not. The same holds for the creation and deletion of files until the
+// folder is synced.
 enum class Fate {
-  none,          // all are lost
-  all,           // all arrived: a kill, rather
-  prefix,        // the first ones, and sectors of the next
-  some_pages,    // any, whole pages of 4096 bytes
-  some_sectors,  // any, sectors of 512 bytes
-  zeros,         // file sizes arrived, of the contents only a part
-  junk,          // some sectors hold what was never written
-  store_first,   // all to the store, few to its log
+  none,          // all writes are lost
+  all,           // all writes arrived, as after a kill
+  prefix,        // the first writes arrived, and sectors of the next one
+  some_pages,    // any whole pages of 4096 bytes arrived
+  some_sectors,  // any sectors of 512 bytes arrived
+  zeros,         // file sizes arrived, but only part of the contents
+  junk,          // some sectors hold bytes that were never written
+  store_first,   // all writes to the store arrived, and few to its log
   log_first,     // the reverse
 };
 inline constexpr int fates = 9;
 
-// Writes the store's files, as they may be after the first `count` operations, into a folder.
-// `name` is that of the store.
+// Writes the store's files into a folder, as they may be after the first `count` operations. `name`
+// is the name of the store.
 void make_image(const std::vector<Operation>& operations, std::size_t count, Fate fate,
                 std::mt19937_64& random, const std::filesystem::path& folder,
                 const std::string& name);

@@ -22,9 +22,9 @@ using namespace std::chrono_literals;
 
 constexpr int rounds = 8;
 constexpr int at_once = 4;
-constexpr auto patience = 60s;  // a command that has not ended by then hangs
+constexpr auto patience = 60s;  // a command that takes longer hangs
 
-// A command on its own, the leader of a group of processes.
+// A command that runs on its own, as the leader of a process group.
 class Process {
  public:
   Process(const std::filesystem::path& folder, std::string words, int number, int clock)
@@ -40,14 +40,14 @@ class Process {
 
   bool is_run() const { return words_.starts_with("run"); }
 
-  // The command alone, so that its workers find themselves without it, or all of them.
+  // Kills the command alone, so that its workers lose it, or the whole group.
   void strike(bool all) {
     is_struck_ = true;
     kill(all ? -id_ : id_, SIGKILL);
   }
   void stop() const { kill(id_, SIGTERM); }
 
-  // What is wrong with how it ended, or nothing.
+  // Waits for the end. Returns what is wrong with it, or nothing.
   std::optional<std::string> end() {
     int status = 0;
     const auto until = std::chrono::steady_clock::now() + patience;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Many commands at once on one store and its shards, and most of them killed.
+// Many commands at once on one store and its shards. Most of them are killed.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,10 @@ namespace haff::tests {
 
 class Storm {
  public:
-  // `tau_max` says how long the campaign is that the storm comes over.
+  // `tau_max` sets the length of the campaign.
   explicit Storm(double tau_max);
 
-  // What went wrong in the storm of these random numbers, or nothing.
+  // Runs a storm with these random numbers. Returns what went wrong, or nothing.
   std::optional<std::string> fault(std::mt19937_64& random,
                                    const std::filesystem::path& folder) const;
 
@@ -25,7 +25,7 @@ class Storm {
 
  private:
   double tau_max_;
-  std::string expected_;  // the rows of a campaign that is left alone
+  std::string expected_;  // the rows of an undisturbed campaign
   mutable int kills_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The record of what the processes of a campaign asked of the disk: headers, each followed by
+// The record of the requests of a campaign's processes to the disk: headers, each followed by
 // `size` bytes of data.
 #pragma once
 

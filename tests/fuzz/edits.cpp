@@ -75,7 +75,7 @@ Commit commit(const Job& job) {
   return made;
 }
 
-// All but the last are done.
+// Finishes all jobs but the last.
 void work(Store& store) {
   const Owner owner{.host = "here", .boot_id = "now", .pid = 1, .started = 1};
   while (const auto claim = store.claim(owner, "fuzz")) {
@@ -107,7 +107,7 @@ struct Column {
   std::string table, name;
 };
 
-// Any column of any table, by a number.
+// A column of a table, chosen by bytes of the input.
 Column column(SQLite::Database& store, Input& input) {
   Column chosen{tables[input.byte() % tables.size()], {}};
   std::vector<std::string> names;
@@ -146,7 +146,7 @@ void bind_some_value(SQLite::Statement& statement, Input& input) {
   }
 }
 
-// What a table refuses (a STRICT column, a key that is there) is left as it was.
+// A value that the table refuses (STRICT column, existing key) leaves the row as it was.
 void set_a_value(SQLite::Database& store, Input& input) {
   const Column chosen = column(store, input);
   const int row = input.byte() % 8;
@@ -166,7 +166,7 @@ void delete_a_row(SQLite::Database& store, Input& input) {
   drop.exec();
 }
 
-// Bytes of a state, with both checksums made right again: what is behind them is what is read.
+// Changes bytes of a state and corrects both checksums, so that the bytes behind them are read.
 void edit_a_state(SQLite::Database& store, Input& input) {
   SQLite::Statement row(store,
                         "SELECT job_id, bytes FROM checkpoint_chunks ORDER BY job_id LIMIT 1 "
@@ -196,7 +196,7 @@ void edit_a_state(SQLite::Database& store, Input& input) {
   sum.exec();
 }
 
-// As if a program without digests had written the store.
+// Deletes the digests, as if a program without digests had written the store.
 void forget_digests(SQLite::Database& store) {
   store.exec(
       "DELETE FROM table_digests; DELETE FROM digests; "
@@ -244,7 +244,7 @@ std::string sound_store(const std::filesystem::path& folder) {
   return bytes_of(file);
 }
 
-// Rows first, by SQLite, then bytes of the file.
+// Edits rows first, through SQLite, and then bytes of the file.
 void write_edited(const std::string& store, Input input, const std::filesystem::path& file) {
   const auto write = [&](const std::string& bytes) {
     std::ofstream(file, std::ios::binary | std::ios::trunc)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// An input of the fuzzer as edits of a sound store: what each byte does is found by coverage, so
-// that few bytes reach far. The kinds of edits, and what follows each: apply() in edits.cpp.
+// An input of the fuzzer, interpreted as edits of a sound store. Coverage finds the effect of each
+// byte, so that few bytes can do much. apply() in edits.cpp has the kinds of edits and the bytes
+// that each takes.
 #pragma once
 
 #include <cstddef>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Random input through the real code: grids, states near contact, checkpoints.
+// Random input for the real code: grids, states near contact, checkpoints.
 //
 //   fuzz --seed 7 --rounds 1000
 //
-// Whatever comes in, it is either used or refused with one of the types of error that callers
-// expect; anything else (a crash, a sanitizer's finding, another exception) ends the program, which
-// then says with which seed and round.
+// Any input is either used or refused with one of the types of error that callers expect. Anything
+// else (a crash, a sanitizer's finding, another exception) ends the program, which then prints the
+// seed and the round.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstring>
@@ -71,7 +71,7 @@ std::string grid(Random& random) {
   return text;
 }
 
-// A grid that is right, but for a few of its words and characters.
+// A correct grid, in which a few words and characters are changed.
 std::string mutated_grid(Random& random) {
   static const char* const grids[] = {
       R"({"e": [0.8, 0.9], "n": 0.4, "N": 32000, "seeds": 2, "tau_max": {"0.8": 90, "0.9": 180},
@@ -95,7 +95,7 @@ std::string mutated_grid(Random& random) {
     const std::size_t end = text.find_first_of(",:]} ", begin + 1);
     const std::size_t length = (end == std::string::npos ? text.size() : end) - begin;
     switch (below(random, 5)) {
-      case 0:  // a word, most often a number, is another
+      case 0:  // replaces a word, most often a number
       case 1:
         text.replace(begin, length, value(random, 1));
         break;
@@ -117,7 +117,7 @@ struct Grids {
 };
 Grids grids_seen;
 
-// A grid that is accepted is expanded: it must not take for ever.
+// An accepted grid is expanded, which must not take for ever.
 void try_grid(const std::string& text) {
   constexpr std::size_t many = 2'000'000;  // schema/grid.schema.json allows a million jobs
   ++grids_seen.tried;
@@ -138,7 +138,7 @@ engine::State state_near_contact(Random& random) {
   const int d = below(random, 4) == 0 ? 2 : 3;
   engine::State state =
       engine::initial_state(0.02 + 0.5 * random.uniform(), particles, random.bits() >> 11, d);
-  // Some pairs are put at a diameter, give or take a few roundings; some velocities are special.
+  // Some pairs are in contact within a few roundings; some velocities are special.
   for (std::uint64_t k = below(random, 6); k-- > 0;) {
     const auto a = below(random, particles), b = below(random, particles);
     const auto axis = below(random, static_cast<std::uint64_t>(d));
@@ -186,7 +186,7 @@ void try_state(Random& random) {
 
 // ---- checkpoints ------------------------------------------------------------------------------
 
-// The checksum at the end, made right again: what is behind it is what is tested.
+// Corrects the checksum at the end, so that the bytes behind it are tested.
 void reseal(std::vector<std::byte>& bytes) {
   bytes.resize(bytes.size() - sizeof(std::uint64_t));
   const std::uint64_t sum = campaign::checkpoint_checksum(bytes);

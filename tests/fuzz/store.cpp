@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Hostile and damaged stores through the program's own reader, with libFuzzer (clang++) or, with
-// another compiler, over the files that are named: the kept corpus, or an input that ended the
+// Hostile and damaged stores, read by the program's own reader: with libFuzzer (clang++), or with
+// another compiler from the named files, which are the kept corpus or an input that ended the
 // program.
 //
 //   fuzz_store -max_total_time=3600 corpus    with libFuzzer; its own options: -help=1
 //   fuzz_store FILE...
 //
-// Whatever a store holds, it is read, or refused with one of the errors of schema/error.hpp or of
-// the checkpoint. All else (a crash, a sanitizer's finding, another exception) ends the program.
+// Any store is either read or refused with one of the errors of schema/error.hpp or of the
+// checkpoint. Anything else (a crash, a sanitizer's finding, another exception) ends the program.
 #include "schema/store/store.hpp"
 
 #include <cstdint>
@@ -52,7 +52,7 @@ void read_job(const Reader& store, std::int64_t job_id, Store& home) {
     for (const FieldName& field : store.fields(job_id)) store.field(job_id, field.name, field.tau);
   });
   attempt([&] { campaign::stored_state(store, job_id, store.job(job_id).job); });
-  // As a shard that is merged.
+  // Reads the store as a shard that is merged.
   attempt([&] { home.take_over(store, job_id); });
 }
 
@@ -91,7 +91,7 @@ void write(const std::filesystem::path& file) {
   });
 }
 
-// The folder is in the place for temporary files: fastest in memory.
+// The folder is in the place for temporary files, which is fastest in memory.
 struct Stage {
   TemporaryFolder folder;
   std::string sound = haff::tests::sound_store(folder.path());

@@ -1,4 +1,4 @@
-// The page of `campaign report` in a real Chromium: what a person does with it by mouse, keyboard and
+// The page of `campaign report` in a real Chromium: what a user does with it by mouse, keyboard and
 // finger, and that the text of a store stays text. Pictures go to the folder PICTURES.
 import assert from "node:assert/strict";
 import {execFileSync, spawn} from "node:child_process";
@@ -17,7 +17,7 @@ let folder, browser, store;
 const campaign = (...words) => execFileSync(CAMPAIGN, words, {cwd: folder, encoding: "utf8"});
 const query = (sql) => JSON.parse(campaign("query", sql, "--format", "json", "--store", store));
 
-// A page of its own, with no network; whatever goes wrong in it, or asks for a network, is kept.
+// A new page without a network. Errors in it, and requests to a network, are kept.
 async function open(address, options = {}, offline = true) {
   const context = await browser.newContext({viewport: {width: 1200, height: 900}, ...options});
   await context.setOffline(offline);
@@ -94,7 +94,7 @@ test("theory is drawn beside the curves, and is no curve of its own", async () =
   const [file] = await Promise.all([page.waitForEvent("download"),
     page.locator("#curve-chart").getByText("Download CSV").click()]);
   const rows = readFileSync(await file.path(), "utf8").trimEnd().split("\n");
-  assert.equal(rows.length - 1, 5 * 41);  // without the one that is switched off, and without theory
+  assert.equal(rows.length - 1, 5 * 41);  // without the curve that is switched off, and without theory
   assert.deepEqual(page.wrong, []);
 });
 
@@ -257,7 +257,7 @@ test("text of a store stays text", async () => {
   assert.deepEqual(page.wrong, []);
 });
 
-// A server as a child process; resolves with its address once it says it.
+// A server as a child process; resolves with its address once it prints it.
 function serve(...words) {
   const child = spawn(CAMPAIGN, ["report", "--store", "live.db", "--serve", ...words], {cwd: folder});
   const address = new Promise((resolve, reject) => {

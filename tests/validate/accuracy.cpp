@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Error bars of real gases: a large set of seeds split into small ones, whose intervals must hold
-// the mean of all as often as they say.
+// Error bars of real gases: a large set of seeds is divided into small groups, whose intervals must
+// hold the mean of all seeds as often as stated.
 #include "analysis/statistics/accuracy.hpp"
 
 #include <doctest/doctest.h>
@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::uint32_t particles = 100;
 
-// Of 1200 intervals the share that holds the mean is known to 0.63 %: below 93 % or above 97 % is a
-// false alarm once in 700 choices of seeds, and the seeds are fixed.
+// The share of 1200 intervals that hold the mean is known to 0.63 %. A share below 93 % or above
+// 97 % is a false alarm once in 700 choices of seeds, and the seeds are fixed.
 constexpr std::size_t intervals = 1200;
 constexpr double least_coverage = 0.93, most_coverage = 0.97;
 
@@ -65,14 +65,15 @@ TEST_CASE("intervals of five cooling gases hold the mean of thousands") {
   CHECK(share < most_coverage);
 }
 
-// What is printed with three realizations, on real ones: bars are 68 % and intervals 95 % by
-// Student's t. The truth is the mean of all 201, whose own error widens the differences by 0.7 %.
-// Of 67 groups the share that holds it is known to 0.057 and 0.027: three of these, a false alarm
-// once in 400. A bare standard error of three covers 0.58.
+// The bars and intervals that are printed with three realizations, for real gases: bars have 68 %
+// and intervals 95 % by Student's t. The true value is the mean of all 201 realizations, whose own
+// error widens the differences by 0.7 %. The shares in 67 groups are known to 0.057 and 0.027;
+// three times that is allowed, a false alarm once in 400. A bare standard error of three covers
+// 0.58.
 TEST_CASE("bars and intervals of three cooling gases hold the mean of 201") {
   constexpr std::size_t seeds = 201, groups = seeds / 3;
   constexpr double e = 0.8;
-  constexpr std::uint32_t many = 1000;  // large enough a box to leave Haff's law
+  constexpr std::uint32_t many = 1000;  // the box is large enough for the gas to leave Haff's law
   std::vector<double> ln_early, ln_late, a2, tau_c;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     engine::Simulation melting({.restitution = 1}, engine::initial_state(0.4, many, seed));
@@ -109,8 +110,8 @@ TEST_CASE("bars and intervals of three cooling gases hold the mean of 201") {
 }
 
 TEST_CASE("intervals of one gas from its blocks hold the mean of equilibrium") {
-  // On the shell of given energy and momentum <c^4> is below the Gaussian's: a2 = -2/(D + 2) with
-  // D = 3 (N - 1) free components.
+  // On the shell of given energy and momentum <c^4> is below the Gaussian value: a2 = -2/(D + 2)
+  // with D = 3 (N - 1) free components.
   constexpr double truth = -2.0 / (3 * (particles - 1) + 2);
   std::size_t covered = 0;
   double correlation_time = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The slow corners; quick versions: tests/engine/corners.cpp.
+// Slow versions of the tests in tests/engine/corners.cpp.
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -27,7 +27,7 @@ double speedy(double phi) {
   return 3 / (1 - z) - 0.5921 * (z - 0.7072) / (z - 0.601);
 }
 
-// As many spheres as a lattice has sites stay a crystal, three quarters of them melt.
+// As many spheres as the lattice has sites stay a crystal; three quarters of this number melt.
 constexpr std::uint32_t crystal = 4000;
 constexpr std::uint32_t fluid = 3000;
 
@@ -78,8 +78,8 @@ TEST_CASE("fcc crystal against Speedy") {
 }
 
 TEST_CASE("grown glass at phi = 0.64: pressure finite and steady") {
-  // Random close packing is near: of six seeds half jam before, and the others' pressures lie
-  // between 500 and 3000. This one does not jam.
+  // Random close packing is near: three of six seeds jam earlier, and the pressures of the others
+  // lie between 500 and 3000. This seed does not jam.
   constexpr std::uint32_t particles = 1100;
   engine::Simulation gas({.restitution = 1}, engine::initial_state(density(0.64), particles, 3));
   gas.run_to(engine::collisions_at(1000, particles));
@@ -92,7 +92,7 @@ TEST_CASE("grown glass at phi = 0.64: pressure finite and steady") {
   CHECK(engine::largest_overlap(gas.invariants()) < 1e-12);
 }
 
-TEST_CASE("clusters at 5 tau_c: nothing lost, and no slower than a third of before") {
+TEST_CASE("clusters at 5 tau_c: no error, and at least a third of the earlier speed") {
   constexpr std::uint32_t particles = 32'000;
   engine::Simulation melting({.restitution = 1}, engine::initial_state(0.4, particles, 1));
   melting.run_to(engine::collisions_at(50, particles));

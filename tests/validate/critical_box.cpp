@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Boxes below and above the smallest one that holds a vortex, L_c = 2 pi xi_perp (11.2 sigma and
-// N = 563 at e = 0.8, n = 0.4): below, gamma/gamma_0 stays constant for ever, some per cent below
-// one, since short waves are correlated there, too; above, the shear mode of wave number 2 pi/L
-// outlives everything else, its energy falls as exp(-2 nu k^2 t), and gamma/gamma_0 tends to
+// N = 563 at e = 0.8, n = 0.4). Below L_c gamma/gamma_0 stays constant for ever, some per cent
+// below one, since short waves are correlated there, too. Above L_c the shear mode of wave number 2
+// pi/L outlives all other modes, its energy falls as exp(-2 nu k^2 t), and gamma/gamma_0 tends to
 // (L_c/L)^2. S. McNamara and W. R. Young, Phys. Rev. E 53, 5089 (1996); lengths:
 // analysis/theory/enskog.hpp.
 #include <doctest/doctest.h>
@@ -26,7 +26,7 @@ namespace {
 constexpr double e = 0.8, n = 0.4;
 constexpr std::uint64_t seeds = 16;
 
-// From the slope of ln T between two tau.
+// gamma/gamma_0 from the slope of ln T between two tau.
 analysis::Estimate decay(std::uint32_t particles, double from, double to) {
   std::vector<double> ratios;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -57,11 +57,11 @@ TEST_CASE("critical_box: gamma stays constant up to N = 563 and tends to (L_c/L)
     MESSAGE("N = " << particles << ": gamma/gamma_0 = " << early.mean << " +- "
                    << early.standard_error << " in tau = 100 ... 200, " << late.mean << " +- "
                    << late.standard_error << " in 300 ... 400, (L_c/L)^2 = " << expected);
-    // Four errors of sixteen seeds, a false alarm once in 900 (Student's t of 15).
+    // Four errors of sixteen seeds: a false alarm once in 900 (Student's t with 15 degrees).
     if (particles < 563)
       CHECK(std::abs(late.mean - early.mean) <
             4 * std::hypot(early.standard_error, late.standard_error));
-    // Independent: 0.838(8) at N = 700, 0.677(14) at 1000; theory is good to a few per cent there.
+    // An independent program gave 0.838(8) at N = 700, 0.677(14) at 1000; theory is good to some %.
     if (particles == 700)
       CHECK(std::abs(late.mean - 0.838) < 4 * std::hypot(late.standard_error, 0.008));
     if (particles == 1000)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The gas itself, dilute: without correlations its a_2 is that of the Enskog-Boltzmann equation, by
-// direct simulation, and not the -A/B of first order in a_2.
+// A dilute gas: without correlations its a_2 is that of the Enskog-Boltzmann equation, by direct
+// simulation, and not -A/B, which is first order in a_2.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -43,8 +43,9 @@ TEST_CASE("dilute_gas: a2 at n = 0.005 is that of the direct simulation, not -A/
                   << direct2.value << ", -A/B " << analysis::boltzmann_a2_plateau(e));
   MESSAGE("a3 = " << third.mean << " +- " << third.standard_error << ", direct simulation "
                   << direct3.value);
-  // The error of 96 seeds is near 0.00013, a thirteenth of what tells the two theories apart: four
-  // of them are a false alarm once in 8000, and -A/B would be one in ten billion.
+  // The error of 96 seeds is near 0.00013, a thirteenth of the difference between the two theories.
+  // Four of these errors are a false alarm once in 8000; by chance -A/B would be measured once in
+  // ten billion.
   CHECK(second.standard_error < 2e-4);
   CHECK(std::abs(second.mean - direct2.value) <
         4 * std::hypot(second.standard_error, direct2.error));

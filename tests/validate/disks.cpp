@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Disks (d = 2): Henderson's fluid when elastic, Enskog-Boltzmann theory while they are not
-// correlated, and the end of that: H. Nakanishi, Phys. Rev. E 67, 010301 (2003), cond-mat/0208477,
-// saw a_2 of cooling disks reach its plateau and go back while Haff's law still held.
-// Quick ones: tests/engine/disks.cpp.
+// Disks (d = 2): Henderson's elastic fluid, Enskog-Boltzmann theory while velocities are not
+// correlated, and the end of that stage: H. Nakanishi, Phys. Rev. E 67, 010301 (2003),
+// cond-mat/0208477, saw a_2 of cooling disks reach its plateau and return while Haff's law still
+// held. Quick tests are in tests/engine/disks.cpp.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -64,12 +64,12 @@ TEST_CASE("disks: pressure and collision rate of the elastic fluid") {
   }
 }
 
-TEST_CASE("disks: a2 and decay of the dilute gas are Enskog and Boltzmann's in the plane") {
+TEST_CASE("disks: a2 and decay of the dilute gas are those of Enskog-Boltzmann theory") {
   constexpr std::uint32_t particles = 100'000;
   constexpr double e = 0.87, n = 0.02;
   engine::Simulation gas = cooling_disks(n, e, particles);
-  // e = 0.87 is not in the table of direct simulations: from the two beside it, whose a_2 is nearly
-  // the same there.
+  // e = 0.87 is not in the table of direct simulations: the value is interpolated between the two
+  // neighbouring e, whose a_2 are nearly equal.
   const auto between = [](const char* name) {
     return analysis::tabulated(name, 0.865, 2)->plateau.value * 6 / 7 +
            analysis::tabulated(name, 0.9, 2)->plateau.value / 7;
@@ -80,13 +80,13 @@ TEST_CASE("disks: a2 and decay of the dilute gas are Enskog and Boltzmann's in t
   const double late = measured(gas, 10).temperature;
   const double gamma = analysis::gamma_ratio(early, late, 8, e, 2);
   MESSAGE("gamma/gamma_0 = " << gamma << ", Enskog-Boltzmann " << between("gamma_ratio"));
-  // Correlations, little as they are at this density, cost another 0.4 % by the energy equation.
+  // Correlations are weak at this density, but cost another 0.4 % by the energy equation.
   CHECK(gamma == doctest::Approx(between("gamma_ratio")).epsilon(0.008));
 
   const double a2 = mean_a2(gas, 11, 26);
   MESSAGE("a2 = " << a2 << ", plateau " << plateau);
-  // 16 samples, each with a standard error of 1/sqrt(N) = 0.0032, that remember for 1.9: as good as
-  // four independent ones. Three errors of their mean.
+  // 16 samples, each with a standard error of 1/sqrt(N) = 0.0032 and a correlation time of 1.9, are
+  // as good as four independent ones. Three errors of their mean are allowed.
   CHECK(std::abs(a2 - plateau) < 3 * analysis::laguerre_noise(2, particles, 2) / 2);
 }
 
@@ -105,13 +105,13 @@ TEST_CASE("disks: a2 of a dense gas returns towards zero within the homogeneous 
   CHECK(late < 0.1 * plateau);
 }
 
-TEST_CASE("disks: T until tau_c is the energy equation's in the plane, with the b of spheres") {
+TEST_CASE("disks: T until tau_c follows the energy equation for d = 2, with the b of spheres") {
   constexpr std::uint32_t particles = 20'000;
   constexpr double n = 0.4;
-  // Two seeds differ by 3 % in tau_c; half of what three dimensions would give is far off.
+  // Two seeds differ by 3 % in tau_c; theory for three dimensions would give twice as much.
   constexpr double tolerance = 0.06;
   for (const auto& [restitution, last] : {std::pair{0.8, 40}, {0.9, 80}}) {
-    const double e = restitution;  // clang 14 captures no structured binding
+    const double e = restitution;  // clang 14 cannot capture a structured binding
     CAPTURE(e);
     engine::Simulation gas = cooling_disks(n, e, particles);
     std::vector<double> tau, temperature;

@@ -39,14 +39,14 @@ TEST_CASE("equilibrium is Gaussian") {
   const auto laguerre = analysis::moments(state.velocity).laguerre;
   CHECK(laguerre[0] == doctest::Approx(1).epsilon(1e-12));
   CHECK(std::abs(laguerre[1]) < 1e-12);
-  // Four standard errors: a false alarm once in 5000 seeds, and the seed is fixed.
+  // Four standard errors are a false alarm once in 5000 seeds, and the seed is fixed.
   for (int l = 2; l <= 4; ++l)
     CHECK(std::abs(laguerre[static_cast<std::size_t>(l)]) <
           4 * analysis::laguerre_noise(l, particles));
 }
 
-TEST_CASE("temperature decays as an independent simulation and the energy equation say") {
-  // ln T/T0 of one realization of the same size by another engine; two realizations of this size
+TEST_CASE("temperature decays as in an independent simulation and in the energy equation") {
+  // ln T/T0 of one realization of the same size by another engine. Two realizations of this size
   // differ by about 0.005 there, so 0.02 is some three standard errors of a difference.
   constexpr double tolerance = 0.02;
   engine::Simulation gas({.restitution = 0.8}, equilibrated());
@@ -62,7 +62,7 @@ TEST_CASE("temperature decays as an independent simulation and the energy equati
 }
 
 TEST_CASE("a2 follows the Enskog-Boltzmann solution at short times") {
-  // Until tau = 3 correlations have hardly built up; five standard errors of one sample.
+  // Until tau = 3 correlations are negligible; five standard errors of one sample are allowed.
   const double e = 0.9;
   engine::Simulation gas({.restitution = e}, equilibrated());
   const double before = measured(gas).laguerre[2];

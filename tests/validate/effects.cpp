@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Effects against published physics: the shuffled and the heated gas, and laws of restitution.
+// Effects against published physics: the shuffled and the heated gas, and restitution laws.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -50,13 +50,13 @@ Series run(const engine::Model& model, const engine::State& start, double from, 
   return series;
 }
 
-// gamma/gamma_0 over a whole series.
+// gamma/gamma_0, averaged over a whole series.
 double gamma_ratio(const Series& series, double e) {
   return analysis::gamma_ratio(series.temperature.front(), series.temperature.back(),
                                series.tau.back() - series.tau.front(), e);
 }
 
-// Slope of ln y against ln x.
+// The slope of ln y against ln x.
 double exponent(const std::vector<double>& x, const std::vector<double>& y) {
   double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
   const auto count = static_cast<double>(x.size());
@@ -75,12 +75,11 @@ double exponent(const std::vector<double>& x, const std::vector<double>& y) {
 }  // namespace
 
 // The argument of R. Kawahara and H. Nakanishi, cond-mat/0309130, in 3-d: without correlations a
-// gas stays where the Enskog-Boltzmann equation comes to rest, by direct simulation at a_2 =
-// -0.0170
+// gas stays at the fixed point of the Enskog-Boltzmann equation, a_2 = -0.0170 by direct simulation
 // (-A/B = -0.0153 is first order in a_2). At n = 0.4 a shuffle leaves pairs near contact, which
-// collide again without the weight v_n that collisions choose pairs by: a_2 falls short and less is
-// lost at a collision. With positions equilibrated in between, gamma/gamma_0 is 0.992 there; the
-// loss is highest in the first tenth of an interval.
+// collide again without the weight v_n that other colliding pairs have: a_2 falls short, and less
+// energy is lost in a collision. With positions equilibrated in between, gamma/gamma_0 is 0.992
+// there; the loss is highest in the first tenth of an interval.
 TEST_CASE("effects: a shuffled gas keeps the a2 of the Enskog-Boltzmann equation") {
   constexpr double e = 0.85;
   constexpr std::uint64_t seeds = 10;
@@ -100,9 +99,9 @@ TEST_CASE("effects: a shuffled gas keeps the a2 of the Enskog-Boltzmann equation
     MESSAGE("n = " << n << ": a2 = " << a2.mean << " +- " << a2.standard_error
                    << ", direct simulation " << plateau.value << "; gamma/gamma_0 = " << ratio.mean
                    << " +- " << ratio.standard_error << ", direct simulation " << decay.value);
-    // How far they fall short was measured so; theory has no number for it. Four errors of ten
-    // seeds, a false alarm once in 300 (Student's t of 9); a gas whose shuffle did nothing would be
-    // back at zero, with a gamma that falls.
+    // The shortfalls are measured values; theory has no number for them. Four errors of ten seeds
+    // are a false alarm once in 300 (Student's t with 9 degrees). If the shuffle had no effect, a_2
+    // would be back at zero and gamma would fall.
     const double shortfall = n < 0.1 ? 0.064 : 0.110, expected_ratio = n < 0.1 ? 0.9938 : 0.9794;
     CHECK(a2.standard_error < 4e-4);
     CHECK(std::abs(a2.mean - (1 - shortfall) * plateau.value) < 4 * a2.standard_error);
@@ -111,7 +110,8 @@ TEST_CASE("effects: a shuffled gas keeps the a2 of the Enskog-Boltzmann equation
 }
 
 // T. P. C. van Noije and M. H. Ernst, Granular Matter 1, 57 (1998), cond-mat/9803042. Errors are
-// the scatter of six seeds: T remembers for some six collisions per particle, of 60 sampled.
+// the scatter of six seeds: T is correlated over some six collisions per particle, and 60 are
+// sampled.
 TEST_CASE("effects: a heated gas reaches its a2 and temperature") {
   constexpr double n = 0.05, rate = 0.05;
   constexpr std::uint32_t particles = 16'000;
@@ -133,11 +133,11 @@ TEST_CASE("effects: a heated gas reaches its a2 and temperature") {
     const double theory = analysis::heated_a2(e);
     MESSAGE("e = " << e << ": a2 = " << a2.mean << " +- " << a2.standard_error << ", theory "
                    << theory);
-    // Five errors of six seeds are a false alarm once in 250; and 20 % for a theory that is linear
-    // in a_2: at e = 0.6 the gas has 0.0150.
+    // Five errors of six seeds are a false alarm once in 250; another 20 % are allowed for a theory
+    // that is linear in a_2: at e = 0.6 the gas has 0.0150.
     CHECK(std::abs(a2.mean - theory) < 5 * a2.standard_error + 0.2 * std::abs(theory));
-    // What is given is lost: rate = 2 gamma_0 omega (3/2) T with Enskog's omega. It is good to some
-    // 1 % here: velocities of partners are weakly correlated, T ~ rate^(2/3).
+    // The energy given is the energy lost: rate = 2 gamma_0 omega (3/2) T with Enskog's omega. This
+    // is good to some 1 % here, since velocities of partners are weakly correlated; T ~ rate^(2/3).
     const double omega = analysis::transport(n, 1).collision_rate;
     const double expected = std::pow(rate / (3 * analysis::gamma0(e) * omega), 2.0 / 3);
     const auto temperature = analysis::estimate(temperatures);
@@ -148,10 +148,11 @@ TEST_CASE("effects: a heated gas reaches its a2 and temperature") {
 }
 
 // T. Schwager and T. Poeschel, PRE 57, 650 (1998); N. V. Brilliantov and T. Poeschel, PRE 61, 5573
-// (2000): T ~ t^(-5/3) for weak dissipation and long times. Fitted to ln T against ln t where
-// 10^-3 > T/T_0 > 10^-6, 2.5 decades of t: before, the start is still remembered, (1 +
-// t/t_0)^(-5/3). What A adds at these speeds, T^(1/10), changes the slope by some 0.005 (-1.671
-// measured); with constant e it would be -2, with the noise of 4000 particles about 0.002.
+// (2000): T ~ t^(-5/3) for weak dissipation and long times. The slope of ln T against ln t is
+// fitted where 10^-3 > T/T_0 > 10^-6, over 2.5 decades of t; earlier, T depends on its start as (1
+// + t/t_0)^(-5/3). The correction in A at these speeds, T^(1/10), changes the slope by some 0.005
+// (-1.671 measured), and the noise of 4000 particles by about 0.002; with constant e it would be
+// -2.
 TEST_CASE("a viscoelastic gas cools as t^(-5/3)") {
   constexpr double tolerance = 0.02;
   const Series all =
@@ -170,15 +171,16 @@ TEST_CASE("a viscoelastic gas cools as t^(-5/3)") {
   CHECK(std::abs(slope + 5.0 / 3) < tolerance);
 }
 
-// S. Luding and S. McNamara, Granular Matter 1, 113 (1998), cond-mat/9810009: t_c far below the
-// time between collisions concerns collapse alone. A sphere collides omega times in a unit of time,
-// so 2 omega t_c of the collisions come within t_c of a partner's last one, and lose nothing: of 2
-// gamma_0 tau that is, while omega falls as exp(-gamma_0 tau), 4 omega_0 t_c in all, whatever e.
-// Here omega_0 = 4.2 and t_c = 10^-4, 1/2400 of the time between collisions: 0.0017 in ln T, of
-// 2.4 that are lost. Two gases from one state are soon two realizations: the mean of their
-// differences over four starts has a standard error of 0.003 in ln T at tau = 20 (as many
-// collisions, each with a loss that scatters by its mean) and of sqrt(8/(15 N))/sqrt(2) = 0.003 in
-// a2, and four of these are allowed for. Measured: 0.0006 at tau = 5, at most 0.005 up to 20.
+// S. Luding and S. McNamara, Granular Matter 1, 113 (1998), cond-mat/9810009: a t_c far below the
+// time between collisions affects collapse alone. A sphere has omega collisions in a unit of time,
+// so a fraction 2 omega t_c of the collisions come within t_c of a partner's last one and lose no
+// energy. This fraction of 2 gamma_0 tau, while omega falls as exp(-gamma_0 tau), adds up to 4
+// omega_0 t_c, for any e. Here omega_0 = 4.2 and t_c = 10^-4, 1/2400 of the time between
+// collisions: 0.0017 in ln T, of 2.4 that are lost. Two gases from one state soon become
+// independent realizations. The mean of their differences over four starts has a standard error of
+// 0.003 in ln T at tau = 20 (as many collisions, each with a loss that scatters by its mean) and of
+// sqrt(8/(15 N))/sqrt(2) = 0.003 in a2; four of these are allowed. Measured: 0.0006 at tau = 5, at
+// most 0.005 up to 20.
 TEST_CASE("the TC model leaves the early stage untouched") {
   constexpr double e = 0.8, n = 0.4, t_c = 1e-4, omega = 4.2;
   constexpr std::uint32_t particles = 32'000;
@@ -201,15 +203,15 @@ TEST_CASE("the TC model leaves the early stage untouched") {
   }
 }
 
-// Kinetic theory: a Maxwellian gas has normal components of relative velocities that are Gaussian
-// with variance 2T, and pairs meet in proportion to theirs, so that normal speeds of colliding
-// pairs are distributed as v exp(-v^2/(4T)). Loss goes as v^2: of that at constant e those above
-// v_c contribute
+// Kinetic theory: in a Maxwellian gas the normal components of relative velocities are Gaussian
+// with variance 2T, and pairs collide in proportion to these components, so that normal speeds of
+// colliding pairs are distributed as v exp(-v^2/(4T)). The loss is proportional to v^2. Relative to
+// the loss at constant e, speeds above v_c contribute
 //   int_x^inf u exp(-u) du = (1 + x) exp(-x),   x = v_c^2/(4T).
-// At e = 0.99 the gas stays Maxwellian (a_2 = -0.0025), and T follows from
-// d ln T/dtau = -2 gamma_0 (1 + x) exp(-x). 8 10^5 collisions, of which at v_c = 3 one in 30
-// counts, give the loss to 0.5 %; four of these. Measured: within 1 %.
-TEST_CASE("an elastic threshold keeps the part of the loss that kinetic theory says") {
+// At e = 0.99 the gas stays Maxwellian (a_2 = -0.0025), and T follows from d ln T/dtau = -2 gamma_0
+// (1 + x) exp(-x). 8 10^5 collisions, of which one in 30 counts at v_c = 3, give the loss to 0.5 %;
+// four times that is allowed. Measured: within 1 %.
+TEST_CASE("an elastic threshold reduces the loss as in kinetic theory") {
   constexpr double e = 0.99, n = 0.05, last = 50, tolerance = 0.02;
   const engine::State start = equilibrated(32'000, n);
   for (const double speed : {0.0, 1.0, 2.0, 3.0}) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Mixtures of spheres and disks against V. Garzo and J. Dufty, Phys. Rev. E 60, 5706 (1999), and,
-// heated, A. Barrat and E. Trizac, Granular Matter 4, 57 (2002): species of different mass and size
-// have different temperatures, whose ratio stays.
+// Mixtures of spheres and disks against V. Garzo and J. Dufty, Phys. Rev. E 60, 5706 (1999), and
+// heated mixtures against A. Barrat and E. Trizac, Granular Matter 4, 57 (2002): species of
+// different mass and size have different temperatures, with a constant ratio.
 #include "analysis/theory/mixture.hpp"
 
 #include <doctest/doctest.h>
@@ -49,7 +49,7 @@ double measured_ratio(const engine::Simulation& gas, const engine::Mixture& mixt
   return sum[0] / count[0] / (sum[1] / count[1]);
 }
 
-// Its mean over times a collision apart, held to theory.
+// Compares its mean over times a collision apart with theory.
 void check_ratio(const analysis::BinaryMixture& gas, const engine::Model& model, double from,
                  double to, double theory, double tolerance) {
   const auto mixture = engine::mixture_of(model.effects.at("mixture"), particles);
@@ -67,10 +67,10 @@ void check_ratio(const analysis::BinaryMixture& gas, const engine::Model& model,
 }  // namespace
 
 TEST_CASE("cooling mixtures have the ratio of temperatures of Garzo and Dufty") {
-  // With 10^4 of each a ratio is known to sqrt(4 / (3 10^4)) = 1.2 % at one time, the mean of ten
-  // to less; measured are 0.3, 1.2, 0.0 and 0.8 %. Theory takes velocities for Gaussian, and
-  // neglects their correlations: S. R. Dahl et al. (cond-mat/0205413) find it good at low density
-  // and weak dissipation.
+  // With 10^4 particles of each species a ratio is known to sqrt(4 / (3 10^4)) = 1.2 % at one time,
+  // and the mean of ten to less; the measured deviations are 0.3, 1.2, 0.0 and 0.8 %. The theory
+  // assumes Gaussian velocities without correlations: S. R. Dahl et al. (cond-mat/0205413) find it
+  // good at low density and weak dissipation.
   constexpr double tolerance = 0.04;
   for (const analysis::BinaryMixture& gas :
        {analysis::BinaryMixture{.e = 0.95, .n = 0.05, .diameter_ratio = 1, .mass_ratio = 0.1},
@@ -83,14 +83,14 @@ TEST_CASE("cooling mixtures have the ratio of temperatures of Garzo and Dufty") 
 }
 
 TEST_CASE("heated mixtures have the ratio of temperatures of Barrat and Trizac") {
-  // Thirty times a collision apart, each known to 1.2 % (of disks 1.4 %), and theory takes
-  // velocities for Gaussian.
+  // Thirty times a collision apart, each known to 1.2 % (1.4 % for disks); the theory assumes
+  // Gaussian velocities.
   constexpr double tolerance = 0.03;
   for (const analysis::BinaryMixture& gas :
        {analysis::BinaryMixture{.e = 0.8, .n = 0.05, .diameter_ratio = 1, .mass_ratio = 0.1},
         {.e = 0.9, .n = 0.1, .diameter_ratio = 0.5, .mass_ratio = 0.125},
         {.e = 0.9, .n = 0.05, .diameter_ratio = 1, .mass_ratio = 0.1, .d = 2}}) {
-    // What the gas loses at its first temperature.
+    // The loss of the gas at its initial temperature.
     const double loss = 0.5 * (analysis::cooling_rate(gas, 1, 2.0 / gas.d, 2.0 / gas.d) +
                                analysis::cooling_rate(gas, 2, 2.0 / gas.d, 2.0 / gas.d));
     engine::Model model = model_of(gas);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Observables of an elastic gas in equilibrium, beside what is known of it exactly. Some five
-// minutes of CPU time.
+// Observables of an elastic gas in equilibrium, compared with exact results. Some five minutes of
+// CPU time.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -22,18 +22,18 @@ namespace {
 struct Fluid {
   double n;
   double z;      // p/(n T), known to 2e-5: elastic_fluid.cpp
-  double every;  // tau between states: a pair leaves the range of contact meanwhile
+  double every;  // tau between states, in which a pair leaves the range of contact
   int states;
 };
 
-// chi = g(sigma+) of one gas, from pairs near contact, in many of its states.
+// chi = g(sigma+) of one gas, from pairs near contact in many states.
 void check_contact_value(const Fluid& fluid) {
   CAPTURE(fluid.n);
   constexpr std::uint32_t particles = 32'000;  // g(r) is lower by 1/N, and Z - 1 higher by 0.4/N
   const double known = 3 * (fluid.z - 1) / (2 * std::numbers::pi * fluid.n);
   engine::Simulation gas({.restitution = 1}, engine::initial_state(fluid.n, particles, 1));
   const double box = engine::box_side(fluid.n, particles, 3);
-  constexpr double reach = 1 + analysis::contact_range;  // no farther: a fifth of the time
+  constexpr double reach = 1 + analysis::contact_range;  // more would take five times as long
   std::vector<double> chi;
   for (int k = 0; k < fluid.states; ++k) {
     gas.run_to(engine::collisions_at(30 + k * fluid.every, particles));
@@ -42,8 +42,8 @@ void check_contact_value(const Fluid& fluid) {
   const auto measured = analysis::block_estimate(chi).estimate;
   MESSAGE("n = " << fluid.n << ": chi = " << measured.mean << " +- " << measured.standard_error
                  << ", of the equation of state " << known);
-  // The claim is 1e-3, a third of it one standard error: false alarm in one of 370 seeds, and of
-  // 100 where the extrapolation has its largest bias, 1.2e-4 at n = 0.4.
+  // The claim is 1e-3, and a standard error is a third of it: a false alarm in one of 370 seeds,
+  // and in one of 100 where the extrapolation has its largest bias, 1.2e-4 at n = 0.4.
   constexpr double claimed = 1e-3;
   CHECK(measured.standard_error < claimed / 3 * known);
   CHECK(std::abs(measured.mean - known) < claimed * known);
@@ -58,7 +58,7 @@ engine::CollisionCounts counted(double n, int d, std::uint32_t particles, double
   return *gas.take_collision_counts();
 }
 
-// Mean of (measured - known)^2 over its variance, of bins that hold 100 and more: 1 +-
+// The mean of (measured - known)^2 over its variance, in bins that hold at least 100: 1 +-
 // sqrt(2/bins).
 struct Fit {
   double chi2 = 0;
@@ -81,7 +81,7 @@ TEST_CASE("observables: the contact value of g(r) is that of the equation of sta
 }
 
 TEST_CASE("observables: impact parameters of an elastic gas are those of molecular chaos") {
-  // 4 10^6 collisions: a bin is known to 0.22 %. Five standard deviations of chi^2.
+  // 4 10^6 collisions: a bin is known to 0.22 %. Five standard deviations of chi^2 are allowed.
   for (const int d : {2, 3})
     for (const double n : {0.05, 0.4}) {
       CAPTURE(d);
@@ -97,7 +97,7 @@ TEST_CASE("observables: impact parameters of an elastic gas are those of molecul
 }
 
 TEST_CASE("observables: free times of a dilute elastic gas are those of the Boltzmann equation") {
-  // 8 10^6 flights. Collisions with a partner of before are rare at these densities.
+  // 8 10^6 flights. Collisions with an earlier partner are rare at these densities.
   for (const int d : {2, 3}) {
     CAPTURE(d);
     constexpr double flights = 8e6;

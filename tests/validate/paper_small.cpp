@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// examples/paper-small.json, run by the real program to its page of figures, against the published
-// numbers: all that examples/paper/ shows, in a box 2.7 times smaller.
+// examples/paper-small.json, run by the real program up to its page of figures and compared with
+// the published numbers: it has all that examples/paper/ shows, in a box 2.7 times smaller.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -18,10 +18,11 @@ using namespace haff::tests;
 
 namespace {
 
-// The seeds are fixed and the rows repeat bit for bit, so no tolerance can fail by chance. They say
-// what three realizations of N = 32 000 owe to the paper: a box of 43 sigma holds the correlations
-// of e = 0.95 (xi_perp = 3.5 sigma) worse than those of the others, whose T is 0.33 of ln E above
-// theory at tau_c. Gases of n <= 0.2 correlate so little that three seeds do not tell b.
+// The seeds are fixed and the rows repeat bit for bit, so no tolerance can fail by chance. The
+// tolerances are the deviations of three realizations of N = 32 000 from the paper: a box of 43
+// sigma holds the correlations of e = 0.95 (xi_perp = 3.5 sigma) less well than those of the other
+// e, and its ln E is 0.33 above theory at tau_c. Gases of n <= 0.2 have such weak correlations that
+// three seeds do not determine b.
 constexpr double tau_c_tolerance = 0.08;       // three seeds scatter by 2 %, and the box costs 5 %
 constexpr double energy_tolerance = 0.05;      // of ln E until tau_c, at e <= 0.90: 0.03 at most
 constexpr double decay_tolerance = 0.01;       // of gamma/gamma_0 over half the stage
@@ -32,7 +33,7 @@ constexpr double collapse_tolerance = 0.3;     // spread of the scaled G
 
 using Row = std::map<std::string, std::string>;
 
-// Fields of a line of CSV; quoted ones may hold commas.
+// The fields of a line of CSV; quoted fields may hold commas.
 std::vector<std::string> fields(const std::string& line) {
   std::vector<std::string> list(1);
   bool quoted = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Rough spheres against M. Huthmann and A. Zippelius, Phys. Rev. E 56, R6275 (1997): the ratio of
-// rotational to translational temperature that a cooling gas comes to, and the way to it.
+// Rough spheres against M. Huthmann and A. Zippelius, Phys. Rev. E 56, R6275 (1997): the final
+// ratio of rotational to translational temperature in a cooling gas, and the approach to it.
 #include "analysis/theory/rough_spheres.hpp"
 
 #include <doctest/doctest.h>
@@ -36,12 +36,12 @@ analysis::RoughTemperatures measured(const engine::Simulation& gas, int d = 3) {
 
 }  // namespace
 
-TEST_CASE("rough spheres come to the ratio of temperatures of Huthmann and Zippelius") {
-  // A ratio is known to sqrt(4 / (3 N)) = 0.8 % at one time, the mean of ten a collision apart to
-  // some 0.5 %. Theory takes velocities and spins for Gaussian; that they are not counts "for
-  // medium and small roughness" (A. Santos, G. M. Kremer and M. dos Santos, arXiv:1009.6180), as
-  // measured by 8 % at e = 0.8, beta = 0, and by less than 3 % for rougher spheres. Smaller beta
-  // come to their ratio only after many more collisions.
+TEST_CASE("rough spheres approach the ratio of temperatures of Huthmann and Zippelius") {
+  // A ratio is known to sqrt(4 / (3 N)) = 0.8 % at one time, and the mean of ten a collision apart
+  // to some 0.5 %. The theory assumes Gaussian velocities and spins. Deviations from this matter
+  // "for medium and small roughness" (A. Santos, G. M. Kremer and M. dos Santos, arXiv:1009.6180):
+  // as measured, by 8 % at e = 0.8, beta = 0, and by less than 3 % for rougher spheres. Gases of
+  // smaller beta reach their ratio only after many more collisions.
   for (const double e : {0.8, 0.95})
     for (const double beta : {0.0, 0.5, 0.9}) {
       const double tolerance = beta < 0.5 ? 0.12 : 0.05;
@@ -61,8 +61,9 @@ TEST_CASE("rough spheres come to the ratio of temperatures of Huthmann and Zippe
 }
 
 TEST_CASE("rough spheres: both temperatures follow their equations") {
-  // A temperature of 20 000 particles is known to sqrt(2 / (3 N)) = 0.6 %; T is measured within 1 %
-  // of theory, R, which the missing correlation of velocities and spins concerns more, within 3 %.
+  // A temperature of 20 000 particles is known to sqrt(2 / (3 N)) = 0.6 %. T is measured within 1 %
+  // of theory, and R, which depends more on the neglected correlation of velocities and spins,
+  // within 3 %.
   const analysis::Roughness roughness{.beta = 0.5, .q = 0.4};
   auto gas = rough_gas(0.05, 0.9, roughness);
   for (const double tau : {0.5, 1.0, 2.0, 5.0}) {
@@ -77,11 +78,11 @@ TEST_CASE("rough spheres: both temperatures follow their equations") {
   }
 }
 
-TEST_CASE("rough disks come to the ratio of temperatures of Huthmann and Zippelius") {
-  // A ratio is known to sqrt(3 / N) = 1.2 % at one time, the mean of five to some 0.8 %; theory
-  // takes velocities and spins for Gaussian, as of spheres. In two dimensions vortices grow soon,
-  // whose energy is of translation alone: at n = 0.05 the ratio is 5 % too small at tau = 15 and 15
-  // % at tau = 35. Hence a dilute gas, looked at early.
+TEST_CASE("rough disks approach the ratio of temperatures of Huthmann and Zippelius") {
+  // A ratio is known to sqrt(3 / N) = 1.2 % at one time, and the mean of five to some 0.8 %; as for
+  // spheres, the theory assumes Gaussian velocities and spins. In two dimensions vortices soon
+  // grow, whose energy is that of translation alone: at n = 0.05 the ratio is 5 % too small at
+  // tau = 15 and 15 % at tau = 35. Hence the gas is dilute, and is measured early.
   for (const double beta : {0.0, 0.5, 0.9}) {
     const double tolerance = beta < 0.5 ? 0.08 : 0.05;
     const analysis::Roughness disks{.beta = beta, .q = 0.5, .d = 2};

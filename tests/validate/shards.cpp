@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Shards of every size and in great number: memory stays flat, time grows with the number of jobs.
-// And more random campaigns than cli/cluster/shards has time for.
+// Large shards and large numbers of shards: memory stays constant, and time grows with the number
+// of jobs. Also more random campaigns than tests/cli/cluster/shards.cpp has time for.
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -23,7 +23,7 @@ Outcome done(const Folder& folder, std::vector<std::string> words) {
 }  // namespace
 
 TEST_CASE(
-    "shards: random campaigns, divided, killed and merged at random, come home in every bit") {
+    "shards: random campaigns, divided, killed and merged at random, are the same in every bit") {
   int killed = 0;
   for (unsigned seed = 101; seed <= 125; ++seed) {
     CAPTURE(seed);
@@ -33,12 +33,12 @@ TEST_CASE(
   CHECK(killed >= 100);
 }
 
-TEST_CASE("shards: of a million particles each, no more than one state is held in memory") {
+TEST_CASE("shards: with a million particles, no more than one state is held in memory") {
   const Folder folder;
   plan(folder, R"({"e": 0.9, "n": 0.3, "N": 1000000, "seeds": 2, "tau_max": 1, "equilibrate": 10,
     "checkpoint_every": 1, "observables": ["temperature"]})");
   done(folder, {"run", "--workers", "2", "--max-time", "8m"});
-  // Four states, of some 57 MB each, are at home; a longer tau_max lends them out.
+  // The store has four states of some 57 MB each; a longer tau_max lends them out.
   plan(folder, R"({"e": 0.9, "n": 0.3, "N": 1000000, "seeds": 2, "tau_max": 2, "equilibrate": 10,
     "checkpoint_every": 1, "observables": ["temperature"]})");
   const double state = number(folder, "SELECT max(bytes) FROM checkpoints");
@@ -48,12 +48,12 @@ TEST_CASE("shards: of a million particles each, no more than one state is held i
   const Outcome merge = done(folder, {"merge", "shards/shard-001.db"});
   MESSAGE("a state has " << state / 1e6 << " MB; split took " << split.peak_bytes / 1e6
                          << " MB of memory, merge " << merge.peak_bytes / 1e6);
-  // The program itself takes 20 MB, and a piece of a state is copied at a time.
+  // The program itself takes 20 MB, and states are copied piece by piece.
   CHECK(split.peak_bytes < 1.5 * state + 40e6);
   CHECK(merge.peak_bytes < 1.5 * state + 40e6);
 }
 
-TEST_CASE("shards: 30 000 jobs are split and merged in seconds for a thousand, memory flat") {
+TEST_CASE("shards: 30 000 jobs are split and merged in seconds per thousand, in constant memory") {
   const auto measure = [](int seeds) {
     const Folder folder;
     std::string e;
@@ -78,6 +78,6 @@ TEST_CASE("shards: 30 000 jobs are split and merged in seconds for a thousand, m
     return std::max(split.peak_bytes, merge.peak_bytes) / jobs;
   };
   const double few = measure(30) * 3000, many = measure(300) * 30000;
-  // The table of jobs is held whole: some hundred bytes each.
+  // The whole table of jobs is held in memory: some hundred bytes per job.
   CHECK(many < few + 50e6);
 }

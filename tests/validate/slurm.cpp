@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Tasks and nodes of a real Slurm (support/slurm_cluster.hpp) disturbed in every way that happens
-// on a cluster: minutes, since Slurm itself waits for nodes and counts time limits in minutes. In
-// the end the rows are those of one undisturbed run, in every bit, and only what was lost was
-// computed twice.
+// Tasks and nodes of a real Slurm (support/slurm_cluster.hpp), disturbed in every way that happens
+// on a cluster. This takes minutes, since Slurm itself waits for nodes and counts time limits in
+// minutes. In the end the rows are those of one undisturbed run, in every bit, and only lost work
+// was computed twice.
 #include <doctest/doctest.h>
 
 #include <csignal>
@@ -31,7 +31,7 @@ void start(const Folder& folder, const std::string& time, std::vector<std::strin
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
 }
 
-// Submits again and again, as a user does after a task was cancelled, until no work is left.
+// Submits again and again until no work is left, as a user does after a task was cancelled.
 void go_on(const Folder& folder, const SlurmCluster& cluster, int seconds) {
   cluster.wait_until_empty(seconds);
   for (int round = 0; number(folder, "SELECT count(*) FROM jobs WHERE status <> 'done'") > 0;
@@ -72,7 +72,7 @@ TEST_CASE("slurm: the paper's small grid, tasks cancelled, requeued and killed, 
   cluster.slurm("scontrol requeue " + job + "_2");
   signal_workers(folder, "KILL");
   sleep_for(3s);
-  // A node whose daemon is killed goes on with its tasks, where Slurm does not see them.
+  // A node whose daemon is killed goes on with its tasks, but Slurm does not see them.
   kill(cluster.daemon("n2"), SIGKILL);
   cluster.slurm("scontrol update nodename=n2 state=down reason=test");
   sleep_for(5s);
@@ -80,12 +80,12 @@ TEST_CASE("slurm: the paper's small grid, tasks cancelled, requeued and killed, 
   cluster.slurm("scontrol update nodename=n2 state=resume || true");
   go_on(folder, cluster, 800);
   check_home(folder, expected);
-  // A task that is cancelled stores what it can before it goes.
+  // A task that is cancelled stores what it can before it ends.
   CHECK(shell(folder, "cat shards/round-001-task-1.log").out.find("is left at tau = ") !=
         std::string::npos);
 }
 
-TEST_CASE("slurm: effects and a target, preempted and requeued: nothing stored is computed twice") {
+TEST_CASE("slurm: effects and a target, preempted and requeued: no stored work is done twice") {
   const std::string grid = R"({
     "n": 0.3, "N": 8000, "seeds": 3, "equilibrate": 20, "checkpoint_every": 10,
     "grids": [
@@ -103,7 +103,7 @@ TEST_CASE("slurm: effects and a target, preempted and requeued: nothing stored i
   wait_for_running(folder, "all", 3);
   wait_for_cooling(folder, "shard-001");
 
-  // A partition that goes before takes both nodes for a moment.
+  // A partition of higher priority takes both nodes for a moment.
   cluster.slurm(
       "sbatch --partition=urgent --array=1-2 --cpus-per-task=2 --mem=100 --time=1 "
       "--output=/dev/null --wrap 'sleep 2'");
@@ -118,9 +118,9 @@ TEST_CASE("slurm: effects and a target, preempted and requeued: nothing stored i
   CHECK(number(folder, "SELECT count(*) FROM jobs WHERE e = 0.9 AND seed > 5") > 0);
 }
 
-TEST_CASE("slurm: a time limit strikes, and what is left is done in the next round") {
-  // The tasks are told ten minutes and get one, without the signal that goes before; their workers
-  // hang until Slurm ends them: SIGCONT, SIGTERM, and SIGKILL two seconds later.
+TEST_CASE("slurm: a time limit ends tasks, and the next round does the remaining work") {
+  // The tasks expect ten minutes but get one, without the signal before the end. Their workers hang
+  // until Slurm ends them: SIGCONT, SIGTERM, and SIGKILL two seconds later.
   const std::string grid = R"({"e": [0.9, 0.95], "n": 0.4, "N": 1000, "seeds": 3, "tau_max": 5000,
     "sample_every": 50, "checkpoint_every": 50, "observables": ["temperature"]})";
   const std::string expected = calm_rows(grid);
@@ -138,7 +138,8 @@ TEST_CASE("slurm: a time limit strikes, and what is left is done in the next rou
   check_home(folder, expected);
 }
 
-TEST_CASE("slurm: a node's scratch fills up, and what was put back is gone on with") {
+TEST_CASE(
+    "slurm: a node's scratch folder is full, and jobs go on from the data that were put back") {
   const Folder folder;
   if (shell(folder, "mkdir small; mount -t tmpfs -o size=3m tmpfs small").exit_code != 0) {
     MESSAGE("SKIPPED: only root may mount a tmpfs where Slurm's tasks see it");

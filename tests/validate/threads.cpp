@@ -77,7 +77,7 @@ void agrees(const Model& model, double n, int d = 3) {
 
 }  // namespace
 
-// Some two minutes each on an idle machine.
+// Each of these tests takes some two minutes on an idle machine.
 TEST_CASE("threads: a quarter of a million windows of an elastic gas") {
   agrees({.restitution = 1}, 0.4);
 }

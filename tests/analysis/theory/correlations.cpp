@@ -42,8 +42,7 @@ TEST_CASE("correlations: the cutoff at n = 0.40 is 1.3888") {
 
 TEST_CASE("correlations: an incompressible field has no divergence") {
   // G_perp = G_par + r/(d-1) dG_par/dr.
-  constexpr double h =
-      1e-3;  // central difference: the error is h^2 times third derivatives of order one
+  constexpr double h = 1e-3;  // of a central difference: error h^2 times derivatives of order one
   for (const int d : {2, 3}) {
     const Gas gas{.e = 0.8, .n = 0.4, .d = d};
     for (const double r : {2.0, 5.0, 12.0}) {

@@ -59,8 +59,7 @@ TEST_CASE("text picture: curves are distinguished by letters or by colours") {
   CHECK(plain.find("a e = 0.1   b e = 0.2") != std::string::npos);
   const std::string coloured = text_picture(decay(), {}, true);
   CHECK(coloured.find("\x1b[38;5;") != std::string::npos);
-  CHECK(coloured.find("── ") ==
-        std::string::npos);  // the sample line has the colour, and the words do not
+  CHECK(coloured.find("── ") == std::string::npos);  // the sample is coloured, not the words
 }
 
 TEST_CASE("text picture: text of a store does not move the cursor") {

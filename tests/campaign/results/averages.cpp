@@ -92,8 +92,7 @@ TEST_CASE("averages: tau_c exists only where some realization reached it") {
   const auto chosen = choose_tau_c(read_averages(store), 0.4);
   REQUIRE(chosen.size() == 1);
   CHECK(chosen.front().reached == 2);
-  CHECK(chosen.front().tau_c ==
-        doctest::Approx(58.6).epsilon(0.05));  // the theory from which the series is made
+  CHECK(chosen.front().tau_c == doctest::Approx(58.6).epsilon(0.05));  // by the theory in use
 }
 
 TEST_CASE("averages: tau_c is that of the store's view, with Student's intervals") {

@@ -167,8 +167,7 @@ TEST_CASE("terminal: more workers than the terminal has lines are shown as one l
   CHECK(shown.find("jobs done") != std::string::npos);
   CHECK(shown.find("waiting") == std::string::npos);
   CHECK(shown.find("collisions/s") == std::string::npos);
-  CHECK(shown.find("\033[9A") ==
-        std::string::npos);  // the cursor never moves up by more lines than there are
+  CHECK(shown.find("\033[9A") == std::string::npos);  // up by no more lines than there are
 }
 
 TEST_CASE("terminal: closing it stops a run in order, and the next run goes on") {

@@ -136,8 +136,8 @@ TEST_CASE(
       ".shell cp campaign.db cut.db; cp campaign.db-journal cut.db-journal")");
   REQUIRE(std::filesystem::exists(folder / "cut.db-journal"));
   shell(folder, "mkdir put; cp cut.db* put");
-  CHECK(campaign(folder, {"verify", "--store", "put/cut.db"}).exit_code ==
-        0);  // its own journal: undone
+  // The journal is its own, and is undone.
+  CHECK(campaign(folder, {"verify", "--store", "put/cut.db"}).exit_code == 0);
   for (const char* copy : {"early.db", "backup.db"}) {
     CAPTURE(std::string(copy));
     shell(folder, std::string("rm put/*; cp cut.db-journal put; cp ") + copy + " put/cut.db");

@@ -37,8 +37,7 @@ TEST_CASE("a new store is marked as a store") {
   SQLite::Database sqlite = plain(folder / "a.db");
   CHECK(sqlite.execAndGet("PRAGMA application_id").getInt() == application_id);
   CHECK(sqlite.execAndGet("PRAGMA user_version").getInt() == newest_version());
-  CHECK(sqlite.execAndGet("PRAGMA journal_mode").getString() ==
-        "delete");  // no log while no program uses it
+  CHECK(sqlite.execAndGet("PRAGMA journal_mode").getString() == "delete");  // no log at rest
 }
 
 TEST_CASE("every table is strict") {

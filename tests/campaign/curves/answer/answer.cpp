@@ -139,8 +139,7 @@ TEST_CASE("answer: in time, Haff's law is 1 / (1 + t/t_0)^2") {
   REQUIRE(haff != curves(energy).end());
   // Each point gives a t_0, which must be the same for all.
   const auto t_0 = [&](std::size_t i) { return haff->x[i] / (1 / std::sqrt(haff->y[i]) - 1); };
-  CHECK(t_0(20) ==
-        Approx(t_0(150)).epsilon(1e-3));  // the error comes from the steps of the integral
+  CHECK(t_0(20) == Approx(t_0(150)).epsilon(1e-3));  // error from the steps of the integral
 }
 
 TEST_CASE("answer: a line of theory ends where the data end, on either clock") {

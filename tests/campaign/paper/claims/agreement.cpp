@@ -109,8 +109,7 @@ Averages averages_of(const Theory& theory, double e) {
 
 std::optional<bool> verdict(const std::string& claim, const Theory& theory, double e = 0.8) {
   const auto rows = rows_of(claim, agreement(averages_of(theory, e)));
-  return rows.empty() ? std::optional(false)
-                      : rows.front().holds;  // without tau_c there is no agreement
+  return rows.empty() ? std::optional(false) : rows.front().holds;  // no rows without tau_c
 }
 
 }  // namespace
