@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Where event-driven engines fail: each corner a test. Long versions: tests/validate/corners.cpp.
+// Special cases in which event-driven engines fail. Long versions: tests/validate/corners.cpp.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ State at_rest_as_a_whole(State state) {
   return state;
 }
 
-// Event by event and bit by bit as the naive engine, and nothing lost or out of order.
+// The same events and bits as in the naive engine, with no event lost or out of order.
 void agrees(const engine::Model& model, const State& any, double tau) {
   const State start = at_rest_as_a_whole(any);
   Simulation gas(model, start);
@@ -72,9 +72,9 @@ double temperature_ratio(const Simulation& gas) {
 
 }  // namespace
 
-// ---- cooling for ever -------------------------------------------------------------------------
+// ---- endless cooling --------------------------------------------------------------------------
 
-TEST_CASE("corner: cooling to T/T0 = 1e-60 in a box too small to cluster") {
+TEST_CASE("corner: cooling to T/T0 = 1e-60 in a box too small for clusters") {
   constexpr std::uint32_t particles = 256;
   constexpr double e = 0.8;
   Simulation gas({.restitution = e}, engine::initial_state(0.4, particles, 1));
@@ -85,27 +85,28 @@ TEST_CASE("corner: cooling to T/T0 = 1e-60 in a box too small to cluster") {
     tau += engine::synchronization_period;
     gas.run_to(engine::collisions_at(tau, particles));
     REQUIRE(std::isfinite(gas.time()));
-    // Event times lie between 0 and the length of a period, in scaled units: their digits beyond
-    // the mean free time, a tenth of it at its beginning and e^(gamma_0 10) of that at its end.
+    // In scaled units event times lie between 0 and the length of a period. The mean free time is a
+    // tenth of the period on average, and grows by e^(gamma_0 10) within it; event times must
+    // resolve it throughout.
     const double period = std::ldexp(gas.time() - time, -gas.exponent());
     const double mean_free_time = 0.1 * period * std::exp(-10 * gamma0);
     REQUIRE(period * std::numeric_limits<double>::epsilon() < 1e-12 * mean_free_time);
     REQUIRE(gas.time() > time);
     time = gas.time();
   }
-  // Rate of decay: gamma_0 but for a2 (0.5 %) and the noise of 256 particles; correlations of a box
-  // below 2 pi xi_perp lower it by some per cent.
+  // The rate of decay is gamma_0, up to a2 (0.5 %) and the noise of 256 particles; correlations in
+  // a box below 2 pi xi_perp lower it by some per cent.
   const double rate = -std::log(temperature_ratio(gas)) / tau;
   CHECK(rate / (2 * gamma0) == doctest::Approx(1).epsilon(0.05));
-  // The centre of mass, if it were left alone, would carry 1e-32 of the energy at the start.
+  // Without correction, the centre of mass would carry 1e-32 of the initial energy.
   CHECK(relative_momentum(gas) < 1e-12);
   CHECK(gas.invariants().momentum_removed > 0);
   CHECK(gas.invariants().momentum_removed < engine::allowed_momentum);
   CHECK(gas.exponent() >= 99);  // 2^-100 = 1e-30
 }
 
-// Clustering gases of N = 6 10^5 were refused once: what is found is the rounding of the sum.
-TEST_CASE("corner: a large gas that streams leaves rounding, not momentum, and is accepted") {
+// Clustering gases of N = 6 10^5 were once refused: the momentum found is the rounding of the sum.
+TEST_CASE("corner: rounding in the momentum of a large, streaming gas is accepted") {
   constexpr std::uint32_t particles = 1'000'000;
   std::vector<engine::Particle> gas(particles);
   for (std::uint32_t id = 0; id < particles; ++id) {
@@ -118,7 +119,7 @@ TEST_CASE("corner: a large gas that streams leaves rounding, not momentum, and i
   const double rounding = engine::remove_momentum<>(gas);
   CHECK(rounding > 1e-13);
   CHECK_FALSE(engine::violation({.momentum_removed = rounding}, 1));
-  // One particle whose partner did not recoil.
+  // One particle gains momentum, as if its partner had not recoiled.
   gas.front().velocity[0] += 0.01;
   CHECK(engine::violation({.momentum_removed = engine::remove_momentum<>(gas)}, 1));
 }
@@ -143,10 +144,10 @@ TEST_CASE("corner: scaling velocities by a power of two changes no other bit") {
   }
 }
 
-// ---- for ever elastic -------------------------------------------------------------------------
+// ---- endless elastic runs ----------------------------------------------------------------------
 
 TEST_CASE("corner: a million elastic collisions") {
-  // Rounding: 1e6 random steps of 1e-16 of a particle's energy. Of 1e8: tests/validate.
+  // Rounding: 1e6 random steps of 1e-16 of a particle's energy. tests/validate has 1e8 collisions.
   constexpr std::uint32_t particles = 500;
   Simulation gas({.restitution = 1}, engine::initial_state(0.4, particles, 1));
   gas.run_to(1'000'000);
@@ -161,7 +162,7 @@ TEST_CASE("corner: a million elastic collisions") {
 
 TEST_CASE("corner: a dense crystal keeps its pressure and does not overlap") {
   // R. J. Speedy, J. Phys.: Condens. Matter 10, 4387 (1998), at phi = 0.70; 500 particles and 5e4
-  // collisions: 1 % (validate: more of both, and other densities).
+  // collisions give the pressure to 1 % (tests/validate has more of both, and other densities).
   Simulation gas({.restitution = 1}, engine::initial_state(0.70 * 6 / std::numbers::pi, 500, 1));
   gas.run_to(engine::collisions_at(100, 500));
   const double z = 0.70 / (std::numbers::pi * std::sqrt(2.0) / 6);
@@ -171,23 +172,23 @@ TEST_CASE("corner: a dense crystal keeps its pressure and does not overlap") {
 }
 
 TEST_CASE("corner: cells of a very dilute gas adapt") {
-  // Their number goes with the particles, not with the volume (2e7 sigma^3).
+  // The number of cells is proportional to that of particles, not to the volume (2e7 sigma^3).
   Simulation gas({.restitution = 1}, engine::initial_state(1e-4, 2000, 1));
   gas.run_to(engine::collisions_at(1, 2000));
   CHECK(static_cast<double>(gas.memory()) / 2000 < 1000);
 }
 
-TEST_CASE("corner: too small a box is refused with the smallest") {
+TEST_CASE("corner: a box that is too small is refused with the smallest side") {
   State state = engine::initial_state(0.2, 2, 1);
   state.box = 1.9;
   CHECK_THROWS_WITH_AS(Simulation({.restitution = 1}, state), doctest::Contains("at least 2 sigma"),
                        std::invalid_argument);
 }
 
-// ---- contacts on the verge --------------------------------------------------------------------
+// ---- borderline contacts ------------------------------------------------------------------------
 
 TEST_CASE("corner: grazing contacts") {
-  // Two that pass at 1 +- a few roundings, among others: hit or miss, time goes on.
+  // Two particles pass at 1 +- a few roundings, among others: hit or miss, time goes on.
   for (int k = -4; k <= 4; ++k) {
     CAPTURE(k);
     const double offset = 1 + k * 0x1p-52;
@@ -210,7 +211,7 @@ TEST_CASE("corner: pairs at contact within rounding") {
     }
 }
 
-TEST_CASE("corner: two at rest relative to each other, and particles at rest") {
+TEST_CASE("corner: two particles at rest relative to each other, and particles at rest") {
   // 0 and 1 touch and fly side by side; 2 and 3 do not move until 0 hits them.
   agrees({.restitution = 0.9},
          state_of(8, {{1, 2, 2}, {1, 3, 2}, {4, 2.1, 2}, {6, 3, 2}},
@@ -228,9 +229,10 @@ TEST_CASE("corner: speeds that differ by 1e8") {
 
 // ---- at the same time -------------------------------------------------------------------------
 
-TEST_CASE("corner: a lattice in which all collide at once") {
-  // Simple cubic, neighbours along x flying at each other in pairs: each pair exchanges velocities
-  // at the very same time, then the same happens with the partners on the other side.
+TEST_CASE("corner: a lattice in which all particles collide at once") {
+  // A simple cubic lattice whose neighbours along x approach in pairs: all pairs exchange
+  // velocities at exactly the same time, and then collide with the neighbours on the other side,
+  // again all at once.
   constexpr int side = 4;
   std::vector<Vector> positions, velocities;
   for (int x = 0; x < side; ++x)
@@ -256,7 +258,7 @@ TEST_CASE("corner: a lattice in which all collide at once") {
 }
 
 TEST_CASE("corner: three-body contacts are conserved and ordered by id") {
-  // 0 and 2 hit 1 at the same instant; the contact of 0 and 1 has the smaller ids.
+  // 0 and 2 hit 1 at the same time; the contact of 0 and 1 has the smaller ids.
   const State start =
       state_of(12, {{2, 6, 6}, {6, 6, 6}, {10, 6, 6}}, {{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}});
   Simulation gas({.restitution = 1}, start);
@@ -267,10 +269,9 @@ TEST_CASE("corner: three-body contacts are conserved and ordered by id") {
   CHECK(by_id(gas, start) == std::vector<Vector>{{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}});
 }
 
-TEST_CASE(
-    "corner: of two partners met at the same instant the one with the smaller id comes first") {
-  // At the time 3, particle 0 hits particle 3 and stops. Its search then finds 1 and 2, which will
-  // both hit it at the time 5, and whose own searches were made before.
+TEST_CASE("corner: of two partners met at the same time, the one with the smaller id comes first") {
+  // At the time 3, particle 0 hits particle 3 and stops. Its search then finds 1 and 2, both of
+  // which will hit it at the time 5, and whose own searches were made before.
   const State start = state_of(16, {{8, 4, 8}, {2, 7, 8}, {14, 7, 8}, {8, 8, 8}},
                                {{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 0}});
   for (const auto search : {engine::SearchBackend::simd, plain}) {
@@ -289,7 +290,7 @@ TEST_CASE("corner: Newton's cradle") {
                {{1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
   Simulation gas({.restitution = 1}, start);
   gas.run_to(5);
-  CHECK(gas.time() == 2);  // all five at the moment of the first
+  CHECK(gas.time() == 2);  // all five collisions are at the time of the first
   auto moving = by_id(gas, start);
   CHECK(moving.back() == Vector{1, 0, 0});
   moving.pop_back();
@@ -298,7 +299,7 @@ TEST_CASE("corner: Newton's cradle") {
 
 // ---- faces ------------------------------------------------------------------------------------
 
-TEST_CASE("corner: particles on the faces of cells and of the box, crossing several at once") {
+TEST_CASE("corner: particles on the faces of cells and of the box, which cross several at once") {
   // A box of 6 has cells of 1.5: all 64 particles start on corners of cells.
   const State from = engine::initial_state(0.3, 64, 5);
   for (const double component : {1.0, -1.0}) {
@@ -313,7 +314,7 @@ TEST_CASE("corner: particles on the faces of cells and of the box, crossing seve
 
 // ---- input ------------------------------------------------------------------------------------
 
-TEST_CASE("corner: an overlapping state is refused, pair and depth named") {
+TEST_CASE("corner: an overlapping state is refused with pair and depth") {
   State state = engine::initial_state(0.4, 108, 1);
   state.position[7] = state.position[3];
   state.position[7][0] += 0.75;
@@ -321,7 +322,7 @@ TEST_CASE("corner: an overlapping state is refused, pair and depth named") {
                        std::invalid_argument);
 }
 
-TEST_CASE("corner: a state that is not a number is refused") {
+TEST_CASE("corner: a state with a value that is not a number is refused") {
   State state = engine::initial_state(0.4, 108, 1);
   state.velocity[5][1] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH_AS(Simulation({.restitution = 1}, state), doctest::Contains("not finite"),
@@ -330,8 +331,8 @@ TEST_CASE("corner: a state that is not a number is refused") {
 
 // ---- collapse ---------------------------------------------------------------------------------
 
-// A fourth is near, at a hundredth of the diameter from the line's surfaces, and is not named.
-TEST_CASE("corner: three in a line collapse below e = 7 - 4 sqrt(3), and are named") {
+// A fourth particle is a hundredth of a diameter away from these three, and is not named.
+TEST_CASE("corner: three particles in a line collapse below e = 7 - 4 sqrt(3), and are named") {
   const State start = state_of(12, {{2, 6, 6}, {5.5, 6, 6}, {10, 6, 6}, {5.5, 7.01, 6}},
                                {{1, 0, 0}, {0.1, 0, 0}, {-1.1, 0, 0}, {0, 0, 0}});
   for (const double e : {0.0, 0.01, 0.05, 0.07}) {
@@ -350,7 +351,7 @@ TEST_CASE("corner: three in a line collapse below e = 7 - 4 sqrt(3), and are nam
   }
 }
 
-TEST_CASE("corner: three in a line go on with a threshold or a duration of contact") {
+TEST_CASE("corner: three particles in a line go on with a threshold or a duration of contact") {
   const State start = state_of(12, {{2, 6, 6}, {5.5, 6.1, 6}, {10, 6, 6.1}},
                                {{1, 0, 0}, {0.1, 0, 0}, {-1.1, 0, 0}});
   for (const engine::RestitutionLaw& law : {engine::RestitutionLaw{"threshold", {{"speed", 1e-3}}},
@@ -380,7 +381,7 @@ TEST_CASE("corner: at e = 0 time goes on") {
         before = gas.time();
       }
     } catch (const engine::Collapse&) {
-      // No collapse passes for time going on; this one has been named.
+      // A collapse may end the run, but must never look like time that goes on.
     }
   }
 }
@@ -397,7 +398,8 @@ TEST_CASE("corner: strong dissipation ends or goes on, and never hangs") {
       collapsed = true;
       CHECK(collapse.particles.size() >= 2);
     }
-    CHECK(collapsed == (e == 0.1));  // four in a line collapse below 0.17, and it takes no time
+    CHECK(collapsed ==
+          (e == 0.1));  // four particles in a line collapse below 0.17, within a short time
     Simulation softened({.restitution = e, .law = {"tc", {{"t_c", 1e-3}}}}, start);
     double before = energy(softened);
     for (double tau = 1; tau <= 60; ++tau) {
@@ -411,16 +413,16 @@ TEST_CASE("corner: strong dissipation ends or goes on, and never hangs") {
 // ---- clusters ---------------------------------------------------------------------------------
 
 TEST_CASE("corner: more particles near one place than a brick has slots") {
-  // A crystal at close packing fills cells of little more than a diameter with up to 3 particles.
+  // In a crystal at close packing, cells of little more than a diameter hold up to 3 particles.
   Simulation gas({.restitution = 1}, engine::initial_state(1.40, 500, 1));
   gas.run_to(engine::collisions_at(20, 500));
   CHECK_FALSE(engine::violation(gas.invariants(), engine::smallest_allowed_overlap));
   CHECK_FALSE(engine::unsoundness(gas.state()));
 }
 
-// ---- back again -------------------------------------------------------------------------------
+// ---- reversal ---------------------------------------------------------------------------------
 
-TEST_CASE("corner: an elastic gas whose velocities are reversed returns") {
+TEST_CASE("corner: an elastic gas whose velocities are reversed returns to its start") {
   for (const std::uint32_t particles : {10u, 30u, 100u}) {
     CAPTURE(particles);
     const State start = engine::initial_state(0.3, particles, 4);
@@ -432,7 +434,7 @@ TEST_CASE("corner: an elastic gas whose velocities are reversed returns") {
     };
     const State forth = end_of(start);
 
-    // How fast do neighbouring trajectories part? One displaced by 1e-9.
+    // The growth of the distance between neighbouring trajectories, from 1e-9.
     State displaced = start;
     displaced.position[0][0] += 1e-9;
     const State other = end_of(displaced);
@@ -449,11 +451,11 @@ TEST_CASE("corner: an elastic gas whose velocities are reversed returns") {
     reversed.collisions = 0;
     reversed.time = 0;
     Simulation back({.restitution = 1}, reversed);
-    back.run_to(collisions - 1);  // before a synchronization sorts them
+    back.run_to(collisions - 1);  // before a synchronization sorts the particles
     const double rest = forth.time - back.time();
     const auto positions = back.positions();
     const auto velocities = back.velocities();
-    // The first collision on the way there is the last on the way back: those two are left out.
+    // The first collision of the run is the last one on the way back: its particles are left out.
     std::vector<double> errors;
     for (std::size_t k = 0; k < particles; ++k) {
       Vector at = positions[k];
@@ -464,8 +466,8 @@ TEST_CASE("corner: an elastic gas whose velocities are reversed returns") {
     }
     std::sort(errors.begin(), errors.end());
     const double error = errors[particles - 3];
-    // Rounding enters 1e-16 at a time, and grows no faster than a displacement did: which is
-    // measured along one direction only, so a hundred times that.
+    // Rounding enters in steps of 1e-16 and grows no faster than a displacement. Growth was
+    // measured in one direction only, hence the factor of a hundred.
     MESSAGE("growth " << growth << ", error " << error);
     CHECK(error < 1e-14 * growth * 100);
   }

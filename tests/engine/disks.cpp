@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Disks: a plane of their own, the same promises as spheres, the pressure they should have.
+// Disks: they stay in their plane, keep the same promises as spheres, and have the right pressure.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -40,13 +40,13 @@ void is_sound(const State& state, double n, std::uint32_t particles) {
     for (std::size_t j = 0; j < i; ++j)
       nearest = std::min(nearest, distance(state.position[i], state.position[j], state.box));
   }
-  CHECK(nearest > 1 - 1e-12);  // rounding of the last step of growth
+  CHECK(nearest > 1 - 1e-12);  // rounding in the last step of growth
   CHECK(energy / particles == doctest::Approx(1).epsilon(1e-13));
 }
 
 }  // namespace
 
-TEST_CASE("disks: on a lattice where one fits, grown where none does") {
+TEST_CASE("disks: they start on a lattice if it fits, and are grown otherwise") {
   is_sound(initial_state(0.4, 500, 1, 2), 0.4, 500);
   is_sound(initial_state(0.05, 2, 1, 2), 0.05, 2);
   is_sound(initial_state(1.1, 56 * 97 / 4, 1, 2), 1.1, 56 * 97 / 4);
@@ -54,7 +54,7 @@ TEST_CASE("disks: on a lattice where one fits, grown where none does") {
   is_sound(initial_state(1.0, 90, 1, 2), 1.0, 90);
 }
 
-TEST_CASE("disks: continued from a stored state, looked at anywhere, SIMD or not: the same bits") {
+TEST_CASE("disks: the bits do not depend on stops, observations, or SIMD") {
   for (const double e : {1.0, 0.8, 0.5}) {
     Simulation whole({.restitution = e}, initial_state(0.4, disks, 3, 2));
     Simulation scalar({.restitution = e}, initial_state(0.4, disks, 3, 2), SearchBackend::scalar);
@@ -74,7 +74,7 @@ TEST_CASE("disks: continued from a stored state, looked at anywhere, SIMD or not
   }
 }
 
-TEST_CASE("disks: one that leaves its plane is named") {
+TEST_CASE("disks: a disk that leaves its plane is named") {
   State state = initial_state(0.4, 20, 1, 2);
   state.velocity[4][2] = 1e-3;
   const auto wrong = unsoundness(state);
@@ -83,7 +83,7 @@ TEST_CASE("disks: one that leaves its plane is named") {
   CHECK_THROWS_AS(Simulation({}, state), std::invalid_argument);
 }
 
-TEST_CASE("disks: overlapping ones are found wherever they are") {
+TEST_CASE("disks: overlapping disks are found wherever they are") {
   for (const std::uint32_t particles : {20u, 2000u}) {
     State state = initial_state(0.4, particles, 1, 2);
     state.position[1] = state.position[0];
@@ -93,9 +93,10 @@ TEST_CASE("disks: overlapping ones are found wherever they are") {
   }
 }
 
-// Z = 1 + 2 phi chi, omega_0 = 2 n chi sqrt(pi T / m), chi = (1 - 7 phi/16) / (1 - phi)^2:
-// D. Henderson, Mol. Phys. 30, 971 (1975). 4e5 collisions give the virial to 0.2 % and the rate to
-// 0.1 %; the formula is good to 0.3 % up to phi = 0.5. Slower and closer: tests/validate/disks.cpp.
+// Z = 1 + 2 phi chi, omega_0 = 2 n chi sqrt(pi T / m), chi = (1 - 7 phi/16) / (1 - phi)^2: D.
+// Henderson, Mol. Phys. 30, 971 (1975). 4e5 collisions give the virial to 0.2 % and the rate to
+// 0.1 %; the formula is good to 0.3 % up to phi = 0.5. tests/validate/disks.cpp has slower and more
+// precise tests.
 TEST_CASE("disks: pressure and collision rate of the elastic fluid are Henderson's") {
   constexpr std::uint32_t particles = 2000;
   constexpr double n = 0.4;

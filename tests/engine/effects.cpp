@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Effects: what each promises, and that a run resumed in their midst is the same run.
+// The properties of each effect, and that a resumed run with effects is the same run.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -33,8 +33,8 @@ void goes_on_from_its_state(const Model& model) {
   CHECK(whole.state() == continued.state());
 }
 
-// e of a law that leaves none to choose, at a collision of this normal speed, in units of
-// velocities scaled by 2^exponent.
+// e of a law that decides e itself, in a collision of this normal speed, in units of velocities
+// scaled by 2^exponent.
 template <class RestitutionModel>
 double e_at(double speed, const Parameters& parameters, int exponent = 0) {
   RestitutionModel law(1, parameters);
@@ -59,7 +59,7 @@ TEST_CASE("effects: a resumed run is the same run") {
   goes_on_from_its_state({.law = {"viscoelastic", {{"A", 0.3}}}});
 }
 
-TEST_CASE("effects: where a gas is looked at changes nothing") {
+TEST_CASE("effects: observing a gas changes nothing") {
   const Model model{.restitution = 0.8,
                     .effects = {{"shuffle", {{"every", 3}}}, {"thermostat", {{"rate", 2}}}}};
   const State start = initial_state(0.4, particles, 1);
@@ -72,7 +72,7 @@ TEST_CASE("effects: where a gas is looked at changes nothing") {
   CHECK(once.state() == often.state());
 }
 
-TEST_CASE("effects: one that does not exist, or lacks what it needs, is named") {
+TEST_CASE("effects: an unknown effect or a missing parameter is named") {
   const State start = initial_state(0.4, particles, 1);
   CHECK_THROWS_WITH_AS(Simulation({.effects = {{"shufle", {}}}}, start),
                        "there is no effect shufle", std::invalid_argument);
@@ -80,7 +80,7 @@ TEST_CASE("effects: one that does not exist, or lacks what it needs, is named") 
                        "the model needs every > 0", std::invalid_argument);
 }
 
-TEST_CASE("shuffle: the same velocities on other particles") {
+TEST_CASE("shuffle: the same velocities are on other particles") {
   Simulation gas({.restitution = 1, .effects = {{"shuffle", {{"every", 1}}}}, .seed = 1},
                  initial_state(0.4, particles, 1));
   Simulation left_alone({.restitution = 1}, initial_state(0.4, particles, 1));
@@ -89,7 +89,7 @@ TEST_CASE("shuffle: the same velocities on other particles") {
   auto shuffled = gas.velocities();
   auto plain = left_alone.velocities();
   CHECK(shuffled != plain);
-  // Sorted alike but for the momentum that the synchronization takes out, 1e-16 of a velocity.
+  // Equal when sorted, up to the momentum removed by the synchronization, 1e-16 of a velocity.
   std::sort(shuffled.begin(), shuffled.end());
   std::sort(plain.begin(), plain.end());
   double largest = 0;
@@ -99,9 +99,9 @@ TEST_CASE("shuffle: the same velocities on other particles") {
   CHECK(largest < 1e-14);
 }
 
-TEST_CASE("shuffle: every particle is as likely to be anywhere") {
-  // Where particle 0's velocity goes, of 8, in 8000 permutations: chi^2 with 7 degrees of freedom
-  // exceeds 29.9 once in 10^4 seeds.
+TEST_CASE("shuffle: a velocity is equally likely to be on any particle") {
+  // The new place of particle 0's velocity among 8, in 8000 permutations: chi^2 with 7 degrees of
+  // freedom exceeds 29.9 once in 10^4 seeds.
   Shuffle shuffle({{"every", 1}}, 5, {});
   std::array<double, 8> places{};
   for (std::int64_t k = 1; k <= 8000; ++k) {
@@ -117,9 +117,9 @@ TEST_CASE("shuffle: every particle is as likely to be anywhere") {
   CHECK(chi2 < 29.9);
 }
 
-TEST_CASE("thermostat: an elastic gas gains what it is given, and no momentum") {
+TEST_CASE("thermostat: an elastic gas gains the energy that it is given, and no momentum") {
   // 400 kicks of 3N deviates: the gain has a standard error of 2 sqrt(v^2 w) summed, below 1 %
-  // here; 5 % is five of them.
+  // here; the tolerance of 5 % is five of them.
   constexpr double rate = 0.5;
   Simulation gas({.restitution = 1, .effects = {{"thermostat", {{"rate", rate}}}}, .seed = 2},
                  initial_state(0.4, particles, 1));
@@ -137,16 +137,16 @@ TEST_CASE("viscoelastic: e(v) is the series, in any units of speed") {
       CHECK(e_at<Viscoelastic>(v, {{"A", 0.3}}, exponent) ==
             doctest::Approx(1 - x + 0.6 * x * x).epsilon(1e-14));
     }
-  // Its minimum, 7/12 at x = 5/6.
+  // The minimum of the series is 7/12, at x = 5/6.
   CHECK(e_at<Viscoelastic>(1, {{"A", 5.0 / 6 / 1.15344}}) ==
         doctest::Approx(7.0 / 12).epsilon(1e-14));
 }
 
-TEST_CASE("viscoelastic: where the series passes 1 the gas stops") {
+TEST_CASE("viscoelastic: a run ends where the series gives e above 1") {
   CHECK_THROWS_AS((e_at<Viscoelastic>(1, {{"A", 2}})), PhysicsError);
 }
 
-// A decade of speed lowers e of metals by 10^(1/4) = 1.78.
+// A decade of speed lowers e of metals by a factor of 10^(1/4) = 1.78.
 TEST_CASE("plastic: e falls as v^(-1/4) above the yield speed, in any units of speed") {
   for (const int exponent : {-7, 0, 3}) {
     const auto e = [&](double speed) {
@@ -159,7 +159,7 @@ TEST_CASE("plastic: e falls as v^(-1/4) above the yield speed, in any units of s
   }
 }
 
-TEST_CASE("fifth root: the bits are these everywhere") {
+TEST_CASE("fifth root: the bits are the same everywhere") {
   CHECK(fifth_root(32) == 2);
   CHECK(fifth_root(1) == 1);
   CHECK(fifth_root(0.5) == doctest::Approx(0.87055056329612413).epsilon(1e-15));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The bits of twenty-odd trajectories, one of each kind: every effect, both dimensions, thin and
+// The bits of twenty-odd trajectories, one of each kind: every effect, both dimensions, dilute and
 // dense gases, corners. They are the same with every compiler, SIMD target and machine.
 //
-// A hash that differs means that results are not those of the last release. Where that is intended,
-// raise physics_version (engine/simulation.hpp) and take over the hashes that this test prints: a
-// stored job must know which of the two it was computed with.
+// A different hash means that results are not those of the last release. Where that is intended,
+// raise physics_version (engine/simulation.hpp) and copy the hashes that this test prints, so that
+// a stored job says with which version it was computed.
 #include <doctest/doctest.h>
 #include <hwy/highway.h>
 
@@ -25,7 +25,7 @@ namespace {
 
 static_assert(physics_version == 1, "the hashes below are those of physics version 1");
 
-// FNV-1a over words: the order and every bit matter.
+// FNV-1a over words: it depends on their order and on every bit.
 class Hash {
  public:
   void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3u; }
@@ -44,7 +44,7 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-// Where all particles are and how fast, in what order, and when.
+// Covers positions, velocities and order of all particles, and the time.
 std::string hash_of(Simulation& gas) {
   Hash hash;
   for (const std::uint32_t id : gas.ids()) hash.add(std::uint64_t{id});
@@ -68,7 +68,7 @@ struct Scene {
   int d = 3;
   std::uint32_t particles = 500;
   double melting = 10;  // elastic collisions per particle before
-  double tau = 25;      // past two synchronizations, and not at one
+  double tau = 25;      // beyond two synchronizations, and between two
 };
 
 const std::map<std::string, Parameters> mixture{
@@ -216,7 +216,7 @@ Simulation gas_of(const Scene& scene, SearchBackend backend) {
 
 }  // namespace
 
-// Under each of the SIMD targets that are compiled and that this processor has, and without any.
+// With each SIMD target that is compiled and that this processor has, and without SIMD.
 TEST_CASE("the bits of every kind of trajectory are those of this physics version") {
   const auto check = [](SearchBackend backend, const std::string& target) {
     CAPTURE(target);
@@ -238,8 +238,7 @@ TEST_CASE("the bits of every kind of trajectory are those of this physics versio
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-// When a collapse counts as one is decided by what loop/watchdog.hpp calls slow, quick and too
-// many.
+// The limits in loop/watchdog.hpp decide when a collapse is noticed.
 TEST_CASE("a collapse is noticed after the same collision") {
   Simulation gas({.restitution = 0.1}, initial_state(0.4, 500, 1));
   try {

@@ -31,7 +31,7 @@ double smallest_distance(const State& state) {
 
 void is_sound(const State& state, std::uint32_t particles) {
   REQUIRE(state.particles() == particles);
-  CHECK(smallest_distance(state) > 1 - 1e-12);  // rounding of the last step of growth
+  CHECK(smallest_distance(state) > 1 - 1e-12);  // rounding in the last step of growth
   double energy = 0;
   Vector momentum{};
   for (const Vector& v : state.velocity) {
@@ -48,29 +48,29 @@ void is_sound(const State& state, std::uint32_t particles) {
 
 }  // namespace
 
-TEST_CASE("a lattice where one fits") {
+TEST_CASE("spheres start on a lattice if it fits") {
   is_sound(initial_state(0.4, 500, 1), 500);
   is_sound(initial_state(0.05, 2, 1), 2);
-  is_sound(initial_state(1.2, 500, 1), 500);  // 500 = 4 * 5^3: far above freezing
+  is_sound(initial_state(1.2, 500, 1), 500);  // 500 = 4 * 5^3; far above freezing
 }
 
-TEST_CASE("grown where none fits") {
+TEST_CASE("spheres are grown where no lattice fits") {
   is_sound(initial_state(0.5, 8, 3), 8);      // a box smaller than four cells
   is_sound(initial_state(1.1, 300, 1), 300);  // phi = 0.58
 }
 
-TEST_CASE("grown spheres that cannot get there say so") {
+TEST_CASE("spheres that jam while they grow are refused") {
   CHECK_THROWS_WITH_AS(initial_state(1.38, 33, 1), doctest::Contains("jammed"),
                        std::invalid_argument);
 }
 
-TEST_CASE("depends on the seed and on nothing else") {
+TEST_CASE("an initial state depends on the seed and on nothing else") {
   CHECK(initial_state(0.4, 300, 5) == initial_state(0.4, 300, 5));
   CHECK(initial_state(0.4, 300, 5).velocity != initial_state(0.4, 300, 6).velocity);
   CHECK(initial_state(1.1, 100, 5) == initial_state(1.1, 100, 5));
 }
 
-TEST_CASE("restarted: unit energy, clocks at zero, same places") {
+TEST_CASE("restarted: unit energy, clocks at zero, same positions") {
   Simulation gas({.restitution = 0.7}, initial_state(0.4, 108, 1));
   gas.run_to(collisions_at(2 * synchronization_period, 108));
   const State before = gas.state();
@@ -85,7 +85,7 @@ TEST_CASE("restarted: unit energy, clocks at zero, same places") {
 TEST_CASE("the box has the volume that the density asks for") {
   for (const double n : {1e-4, 0.05, 0.4, 1.4}) {
     const double side = initial_state(n, 32, 1).box;
-    // A few roundings of the cube root and of its cube.
+    // A few rounding errors of the cube root and of its cube.
     CHECK(side * side * side * n / 32 == doctest::Approx(1).epsilon(4e-15));
   }
 }

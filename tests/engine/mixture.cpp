@@ -59,7 +59,7 @@ void agrees(const Model& model, const State& start, double tau, SearchBackend pr
   }
 }
 
-// Momentum and kinetic energy of all, in scaled units.
+// Momentum and kinetic energy of all particles, in scaled units.
 struct Sums {
   Sums(const State& state) {
     const Mixture mixture = mixture_in(state).value();
@@ -75,7 +75,7 @@ struct Sums {
 
 }  // namespace
 
-TEST_CASE("mixture: a new gas has as many of each, energy 1 and no momentum") {
+TEST_CASE("mixture: a new gas has the right number of each species, energy 1 and no momentum") {
   const Model model = mixed(1, 0.3, 0.5, 0.1);
   const State state = start_of(model, 0.4, 1000);
   const Mixture mixture = mixture_in(state).value();
@@ -84,7 +84,7 @@ TEST_CASE("mixture: a new gas has as many of each, energy 1 and no momentum") {
   const Sums sums(state);
   CHECK(sums.energy == doctest::Approx(1000).epsilon(1e-12));
   CHECK(std::sqrt(dot(sums.momentum, sums.momentum)) < 1e-11);
-  // One temperature: the energy of 300 particles, within four standard errors sqrt(2/900).
+  // Both species have one temperature: 300 particles, within four standard errors sqrt(2/900).
   double of_second = 0;
   int in_lower_half = 0;
   for (std::size_t i = 0; i < 1000; ++i)
@@ -93,11 +93,12 @@ TEST_CASE("mixture: a new gas has as many of each, energy 1 and no momentum") {
       if (state.position[i][2] < 0.5 * state.box) ++in_lower_half;
     }
   CHECK(std::abs(of_second / 300 - 1) < 4 * std::sqrt(2.0 / 900));
-  // Everywhere in the box: 150 of 300, within four standard deviations.
+  // Species 2 is everywhere in the box: 150 of 300 in this half, within four standard deviations.
   CHECK(std::abs(in_lower_half - 150) < 4 * std::sqrt(75.0));
 }
 
-TEST_CASE("mixture: elastic ones keep energy and momentum, others lose what is counted") {
+TEST_CASE(
+    "mixture: elastic mixtures conserve energy and momentum, others lose the counted energy") {
   for (const double e : {1.0, 0.8}) {
     CAPTURE(e);
     const Model model = mixed(e, 0.5, 0.4, 0.05);
@@ -113,7 +114,7 @@ TEST_CASE("mixture: elastic ones keep energy and momentum, others lose what is c
   }
 }
 
-TEST_CASE("mixture: of equal species it is the gas of one") {
+TEST_CASE("mixture: with equal species it is the gas of one species") {
   const Model model = mixed(0.8, 0.3, 1, 1);
   State start = initial_state(0.4, 500, 1);
   Simulation one({.restitution = 0.8}, start);
@@ -154,7 +155,7 @@ TEST_CASE("mixtures equal the reference") {
   }
 }
 
-TEST_CASE("mixtures of rough bodies equal the reference") {
+TEST_CASE("mixtures of rough particles equal the reference") {
   for (const int d : {2, 3}) {
     Model model = mixed(0.8, 0.5, 0.5, 0.2);
     model.effects["roughness"] = {{"beta", 0.3}, {"q", 0.4}};
@@ -164,7 +165,8 @@ TEST_CASE("mixtures of rough bodies equal the reference") {
   }
 }
 
-TEST_CASE("mixture: a collision of rough bodies keeps momenta, and loses what is counted") {
+TEST_CASE(
+    "mixture: a collision of rough particles conserves momenta and loses the counted energy") {
   Model model = mixed(0.7, 0.5, 0.5, 0.2);
   for (const double beta : {-1.0, -0.4, 0.6, 1.0}) {
     CAPTURE(beta);
@@ -212,9 +214,9 @@ TEST_CASE("mixture: a collision of rough bodies keeps momenta, and loses what is
 }
 
 TEST_CASE("mixture: the strength of a law of one material depends on the pair") {
-  // Two of species 2, half as large and of a fifth of the mass: R is half, mu a fifth of that of
-  // two of species 1. At speed 1 the viscoelastic x = C_1 A (sqrt(R)/mu)^(2/5) = C_1 A 12.5^(1/5),
-  // and the yield speed sqrt(R^3/mu) = sqrt(0.625) of that of species 1.
+  // Two particles of species 2, half as large and of a fifth of the mass: R is half and mu a fifth
+  // of that of two particles of species 1. At speed 1 the viscoelastic x = C_1 A (sqrt(R)/mu)^(2/5)
+  // = C_1 A 12.5^(1/5), and the yield speed is sqrt(R^3/mu) = sqrt(0.625) of that of species 1.
   const auto loss = [](std::string_view law, Parameters parameters, std::uint32_t id) {
     Model model = mixed(1, 0.5, 0.5, 0.2);
     model.law = {std::string(law), std::move(parameters)};
@@ -251,9 +253,10 @@ TEST_CASE("mixture: SIMD and scalar search give the same bits") {
   }
 }
 
-TEST_CASE("mixture: a thermostat shakes both species alike, and no momentum comes in") {
-  // In a time t either species' velocities gain d xi_0^2 t, where rate = d <m> xi_0^2 / 2: known to
-  // sqrt(2 / 30 000) = 0.8 % of 10 000 particles each, held to four standard errors.
+TEST_CASE("mixture: a thermostat shakes both species alike and adds no momentum") {
+  // In a time t the mean squared velocity of either species grows by d xi_0^2 t, where rate = d <m>
+  // xi_0^2 / 2. It is known to sqrt(2 / 30 000) = 0.8 % for 10 000 particles of each species; four
+  // standard errors are allowed.
   const Model model = mixed(1, 0.5, 1, 0.25);
   const State start = start_of(model, 0.1, 20'000);
   const Mixture mixture = mixture_in(start).value();
@@ -276,7 +279,7 @@ TEST_CASE("mixture: a thermostat shakes both species alike, and no momentum come
   CHECK(std::sqrt(dot(momentum, momentum)) < 1e-9);
 }
 
-TEST_CASE("mixture: a gas continued from its state is the same gas") {
+TEST_CASE("mixture: a run continued from its state is the same run") {
   const Model model = mixed(0.7, 0.5, 0.6, 0.3);
   Simulation whole(model, start_of(model, 0.5, 500, 3));
   whole.run_to(collisions_at(20, 500));
@@ -299,10 +302,10 @@ TEST_CASE("mixture: a new run begins at energy 1 and is the same mixture") {
   CHECK(mixture_in(again) == mixture_in(gas.state()));
 }
 
-TEST_CASE("mixture: spheres may be as near as their radii allow, and no nearer") {
+TEST_CASE("mixture: spheres may be as near as their radii allow, but no nearer") {
   const Model model = mixed(1, 0.5, 0.5, 1);
   State state = start_of(model, 0.01, 2);
-  state.id = {0, 1};  // 1 is the small one
+  state.id = {0, 1};  // particle 1 is small
   state.position = {{1, 2, 2}, {1.76, 2, 2}};
   CHECK_FALSE(unsoundness(state));
   state.position[1][0] = 1.74;
@@ -310,8 +313,8 @@ TEST_CASE("mixture: spheres may be as near as their radii allow, and no nearer")
 }
 
 TEST_CASE("mixture: small particles grow to their own size, where no lattice of large ones fits") {
-  // Number densities at which spheres of diameter 1 would fill more than the box; of these gases
-  // the volume fractions are 0.31, 0.07 and, of disks, 0.69.
+  // At these number densities spheres of diameter 1 would fill more than the box. The volume
+  // fractions of these gases are 0.31, 0.07 and, for disks, 0.69.
   const auto check = [](const Model& model, double n, std::uint32_t particles, int d) {
     CAPTURE(n);
     CHECK_FALSE(begins_on_lattice(n, particles, d));
@@ -327,7 +330,7 @@ TEST_CASE("mixture: small particles grow to their own size, where no lattice of 
   check(mixed(0.9, 0.5, 0.5, 0.25), 1.4, 400, 2);
 }
 
-TEST_CASE("mixture: what does not fit is named") {
+TEST_CASE("mixture: bad parameters and other states are named") {
   const State plain = initial_state(0.4, 108, 1);
   const Model model = mixed(0.8, 0.5, 0.5, 0.2);
   CHECK_THROWS_WITH_AS(Simulation(model, plain),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The engine against the naive reference: every event, every bit.
+// The engine against the naive reference: every event and every bit.
 #include "support/reference.hpp"
 
 #include <doctest/doctest.h>
@@ -43,7 +43,7 @@ void agrees(std::uint32_t particles, double n, double restitution, std::uint64_t
 
 }  // namespace
 
-// Six diameters and more, where the vectorized search is used.
+// Boxes of at least six diameters, for which the vectorized search is used.
 TEST_CASE("SIMD engine equals the reference") {
   for (const double e : {1.0, 0.8, 0.5}) {
     agrees(70, 0.05, e, 7, 12, engine::SearchBackend::simd);
@@ -57,8 +57,8 @@ TEST_CASE("scalar engine equals the reference") {
   agrees(88, 0.4, 0.8, 7, 11, engine::SearchBackend::scalar);
 }
 
-// Scenes drawn at random, a new one each time but always the same ones: sparse and dense, elastic
-// and nearly plastic, boxes of a few diameters up to some cells.
+// Scenes are drawn at random, each one different but the same in every run of the test: sparse and
+// dense, elastic and nearly plastic, boxes of a few diameters up to some cells.
 TEST_CASE("random scenes equal the reference") {
   engine::Random random(20031, engine::Stream::velocities);
   const auto between = [&](double low, double high) {
@@ -76,8 +76,9 @@ TEST_CASE("random scenes equal the reference") {
   }
 }
 
-// Two particles that move as mirror images cross faces of their cells at the same moment, half a
-// box apart: found by the scenes above, where the contact with the farther image was missed.
+// Two particles that are mirror images cross faces of their cells at the same time, half a box
+// apart. The random scenes above found this case, in which the contact with the farther image was
+// missed.
 TEST_CASE("mirrored particles in a box of four cells equal the reference") {
   agrees(2, 0.0302767, 1.0, 18, 60, engine::SearchBackend::simd);
 }
@@ -89,7 +90,7 @@ TEST_CASE("boxes too small for cells equal the reference") {
   agrees(32, 0.8, 0.7, 4, 20, engine::SearchBackend::simd);
 }
 
-TEST_CASE("laws of restitution equal the reference") {
+TEST_CASE("restitution laws equal the reference") {
   const engine::RestitutionLaw threshold{"threshold", {{"speed", 0.3}}};
   const engine::RestitutionLaw tc{"tc", {{"t_c", 0.02}}};
   for (const double e : {0.8, 0.3}) {
@@ -137,7 +138,7 @@ TEST_CASE("disks equal the reference") {
   disks_agree(60, 0.4, 0.8, 7, 21, engine::SearchBackend::scalar);
 }
 
-// As the random scenes of spheres: most of these boxes are smaller than six diameters.
+// Like the random scenes of spheres; most of these boxes are smaller than six diameters.
 TEST_CASE("random scenes of disks equal the reference") {
   engine::Random random(20032, engine::Stream::velocities);
   const auto between = [&](double low, double high) {
@@ -155,7 +156,7 @@ TEST_CASE("random scenes of disks equal the reference") {
   }
 }
 
-TEST_CASE("disks with laws of restitution and actions equal the reference") {
+TEST_CASE("disks with restitution laws and actions equal the reference") {
   const engine::RestitutionLaw threshold{"threshold", {{"speed", 0.3}}};
   const engine::RestitutionLaw tc{"tc", {{"t_c", 0.02}}};
   for (const double e : {0.8, 0.3}) {

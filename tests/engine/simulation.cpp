@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a simulation promises: conservation, the same bits however it is run, exact scaling.
+// The promises of a simulation: conservation, the same bits however it is run, exact scaling.
 #include "engine/simulation.hpp"
 
 #include <doctest/doctest.h>
@@ -29,7 +29,7 @@ double energy(const std::vector<Vector>& velocities) {
 
 }  // namespace
 
-TEST_CASE("elastic spheres keep energy and momentum") {
+TEST_CASE("elastic spheres conserve energy and momentum") {
   Simulation gas({.restitution = 1}, initial_state(0.4, particles, 1));
   gas.run_to(at(200));
   const auto velocities = gas.velocities();
@@ -48,22 +48,22 @@ TEST_CASE("the loss summed over collisions is the change of kinetic energy") {
   const double now = std::ldexp(energy(gas.velocities()), -2 * gas.exponent());
   // Rounding: some 1e4 terms.
   CHECK(particles - now == doctest::Approx(gas.take_tally().dissipated).epsilon(1e-11));
-  CHECK(gas.take_tally().dissipated == 0);  // taken
+  CHECK(gas.take_tally().dissipated == 0);  // the tally was taken
 }
 
-TEST_CASE("stops exactly at the collision asked for") {
+TEST_CASE("a run stops exactly at the given collision") {
   Simulation gas({.restitution = 0.9}, initial_state(0.4, particles, 1));
   for (const std::int64_t collisions : {1, 2, 1000, 2499, 2500, 2501}) {
     gas.run_to(collisions);
     CHECK(gas.collisions() == collisions);
     CHECK(gas.synchronized() == (collisions == 2500));
   }
-  gas.run_to(5);  // in the past: nothing happens
+  gas.run_to(5);  // in the past: no event happens
   CHECK(gas.collisions() == 2501);
   CHECK_THROWS_AS(gas.state(), std::logic_error);
 }
 
-TEST_CASE("the trajectory does not depend on where it is looked at") {
+TEST_CASE("the trajectory does not depend on where it is observed") {
   const State start = initial_state(0.4, particles, 1);
   Simulation once({.restitution = 0.8}, start);
   once.run_to(at(40));
@@ -95,7 +95,7 @@ TEST_CASE("a simulation continued from its state is the same simulation") {
     }
 }
 
-TEST_CASE("SIMD and scalar prediction give the same bits") {
+TEST_CASE("SIMD and scalar search give the same bits") {
   for (const std::uint32_t count : {500u, 4000u, 20'000u}) {
     CAPTURE(count);
     const State start = initial_state(0.4, count, 2);
@@ -107,7 +107,7 @@ TEST_CASE("SIMD and scalar prediction give the same bits") {
   }
 }
 
-TEST_CASE("cooling by many decades keeps numbers near one and time growing") {
+TEST_CASE("after cooling by many decades numbers are near one, and time still grows") {
   Simulation gas({.restitution = 0.5}, initial_state(0.2, 64, 1));
   double time = 0;
   for (int tau = 10; tau <= 300; tau += 10) {
@@ -132,7 +132,7 @@ TEST_CASE("a gas in which no particle moves cannot be run") {
 
 namespace {
 
-// What a gas of these effects is like after tau = 25, looked at on the way so many times.
+// The state of a gas with these effects after tau = 25, observed this many times on the way.
 State after_looks(const Model& model, int d, const Threads& threads, int looks) {
   Simulation gas(model, initial_state(d == 2 ? 0.4 : 0.3, 1000, 1, d, model.effects),
                  SearchBackend::simd, threads);
@@ -149,7 +149,7 @@ State after_looks(const Model& model, int d, const Threads& threads, int looks) 
 
 }  // namespace
 
-TEST_CASE("stops at times change nothing, whatever the gas and the number of threads") {
+TEST_CASE("stops at times change nothing, for any gas and any number of threads") {
   const std::map<std::string, Parameters> rough{{"roughness", {{"beta", 0.5}, {"q", 0.4}}}};
   const std::map<std::string, Parameters> mixed{
       {"mixture", {{"fraction", 0.5}, {"diameter_ratio", 0.8}, {"mass_ratio", 0.1}}}};
@@ -165,14 +165,14 @@ TEST_CASE("stops at times change nothing, whatever the gas and the number of thr
       }
 }
 
-TEST_CASE("a gas at a time lies between two collisions") {
+TEST_CASE("a stop at a time lies between two collisions") {
   Simulation gas({.restitution = 0.8}, initial_state(0.3, particles, 1));
   REQUIRE(gas.run_to(at(20), 1.0));
   const State before = gas.snapshot();
   CHECK(before.time == 1.0);
   CHECK(before.collisions == gas.collisions());
   CHECK_FALSE(unsoundness(before));
-  // Free flight until the next collision: positions move, velocities and collisions do not.
+  // In free flight until the next collision, only positions change.
   gas.run_to(before.collisions);
   CHECK(gas.time() == 1.0);
   const double later = 1.0 + 1e-9;
@@ -184,10 +184,10 @@ TEST_CASE("a gas at a time lies between two collisions") {
     for (std::size_t k = 0; k < 3; ++k) {
       const double moved = after.position[i][k] - before.position[i][k];
       const double expected = std::ldexp(after.velocity[i][k], -after.exponent) * 1e-9;
-      // The rounding of a position in a box of 12, unless a face lies between.
+      // The rounding error of a position in a box of 12, unless a face was crossed.
       if (std::abs(moved) < 1) CHECK(std::abs(moved - expected) < 1e-14);
     }
-  // A time that has passed is now.
+  // A time that has already passed means now.
   CHECK(gas.run_to(at(20), 0.5));
   CHECK(gas.time() == doctest::Approx(later).epsilon(1e-15));
   CHECK_FALSE(gas.run_to(before.collisions + 1, 1e9));

@@ -46,8 +46,8 @@ TEST_CASE("soundness: an overlap is named with its pair and depth") {
   CHECK(mentions(wrong, ("particles " + std::to_string(state.id[0])).c_str()));
 }
 
-TEST_CASE("soundness: an overlap of rounding is allowed, more is not") {
-  // Alone in the box but for each other: nothing else overlaps by moving one of them.
+TEST_CASE("soundness: an overlap from rounding is allowed, and a larger one is not") {
+  // The pair is alone in the box, so that moving one of them makes no other overlap.
   const auto pair = [](double overlap) {
     engine::State state = engine::initial_state(0.01, 2, 1);
     state.position = {{0.1, 2, 2}, {0.1 + 1 - overlap, 2, 2}};
@@ -71,7 +71,7 @@ TEST_CASE("soundness: overlaps are found in boxes of any number of cells") {
   }
 }
 
-TEST_CASE("soundness: numbers that are none are named with their particle") {
+TEST_CASE("soundness: values that are not finite are named with their particle") {
   engine::State state = a_state();
   state.velocity[7][1] = std::numeric_limits<double>::quiet_NaN();
   CHECK(mentions(unsoundness(state), ("particle " + std::to_string(state.id[7])).c_str()));
@@ -89,7 +89,7 @@ TEST_CASE("soundness: an id that occurs twice is named") {
   CHECK(mentions(unsoundness(state), "twice"));
 }
 
-TEST_CASE("soundness: arrays of different lengths are no gas") {
+TEST_CASE("soundness: arrays of different lengths are refused") {
   engine::State state = a_state();
   state.velocity.pop_back();
   CHECK(mentions(unsoundness(state), "do not make a gas"));

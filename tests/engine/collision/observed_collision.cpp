@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Collisions are counted without a change of the trajectory, and what is counted is what an elastic
-// gas is known to do.
+// Collisions are counted without a change of the trajectory, and the counts agree with what is
+// known of an elastic gas.
 #include "engine/collision/observed_collision.hpp"
 
 #include <doctest/doctest.h>
@@ -60,7 +60,7 @@ std::int64_t sum(const Bins& bins) {
   return std::accumulate(bins.begin(), bins.end(), std::int64_t{0});
 }
 
-// Sum of (counted - expected)^2 / expected, over its number of bins.
+// The sum of (counted - expected)^2 / expected over the number of bins.
 double reduced_chi2(const std::vector<double>& counted, const std::vector<double>& expected) {
   double total = 0;
   for (std::size_t i = 0; i < counted.size(); ++i)
@@ -70,7 +70,7 @@ double reduced_chi2(const std::vector<double>& counted, const std::vector<double
 
 }  // namespace
 
-TEST_CASE("observed_collision: the trajectory has the bits that it has when nothing is counted") {
+TEST_CASE("observed_collision: the trajectory has the same bits as without counting") {
   for (const Scene& scene : scenes()) {
     CAPTURE(scene.name);
     const State start = start_of(scene);
@@ -87,7 +87,8 @@ TEST_CASE("observed_collision: the trajectory has the bits that it has when noth
   }
 }
 
-TEST_CASE("observed_collision: every collision is counted once, every flight but the first ones") {
+TEST_CASE(
+    "observed_collision: every collision is counted once, and every flight but the first ones") {
   const Scene scene{"smooth", {.restitution = 0.9}};
   Simulation gas = observed(scene, start_of(scene));
   gas.run_to(collisions_at(20, scene.particles));
@@ -98,7 +99,8 @@ TEST_CASE("observed_collision: every collision is counted once, every flight but
   CHECK(*gas.take_collision_counts() == CollisionCounts{});
 }
 
-TEST_CASE("observed_collision: a checkpoint carries the counts, any search and threads give them") {
+TEST_CASE(
+    "observed_collision: a checkpoint carries the counts, which any search and threads give") {
   for (const Scene& scene : scenes()) {
     CAPTURE(scene.name);
     if (scene.particles > 1000) continue;
@@ -114,13 +116,13 @@ TEST_CASE("observed_collision: a checkpoint carries the counts, any search and t
     CHECK(*resumed.take_collision_counts() == counts);
     CHECK(*scalar.take_collision_counts() == counts);
     CHECK(*several.take_collision_counts() == counts);
-    // What was taken is not counted again.
+    // Counts that were taken are not returned again.
     for (Simulation* gas : {&whole, &resumed}) gas->run_to(collisions_at(40, scene.particles));
     CHECK(whole.state() == resumed.state());
   }
 }
 
-TEST_CASE("observed_collision: refuses what another gas remembers") {
+TEST_CASE("observed_collision: the memory of another gas is refused") {
   const Scene scene{"smooth", {.restitution = 0.9}};
   State state = start_of(scene);
   state.memory["last_collision"] = {1, 2, 3};
@@ -129,7 +131,7 @@ TEST_CASE("observed_collision: refuses what another gas remembers") {
   state.memory["last_collision"].assign(500, -1);
   state.memory["collision_counts"] = {1};
   CHECK_THROWS_AS(observed(scene, state), std::invalid_argument);
-  // Of a state without collisions.
+  // The state has no collisions.
   state.memory["collision_counts"] = std::vector<double>(182);
   CHECK_NOTHROW(observed(scene, state));
   for (const double impossible : {-2.0, 1.0, 1e300}) {
@@ -144,8 +146,9 @@ TEST_CASE("observed_collision: refuses what another gas remembers") {
 }
 
 TEST_CASE("observed_collision: in an elastic gas of any density, molecular chaos is exact") {
-  // 10^5 collisions: b^(d-1) is uniform, and normal speeds have the density w exp(-w^2/2), but for
-  // 1/N. Chi^2 over k bins is known to sqrt(2/k): five of these. False alarm in one of 10^5 seeds.
+  // 10^5 collisions: b^(d-1) is uniform, and normal speeds have the density w exp(-w^2/2), up to
+  // terms of order 1/N. Chi^2 over k bins is known to sqrt(2/k); five times that is allowed, a
+  // false alarm in one of 10^5 seeds.
   for (const Scene& scene : {Scene{"dilute", {}, 3, 0.02, 2000}, Scene{"dense", {}, 3, 0.5, 2000},
                              Scene{"disks", {}, 2, 0.3, 2000}}) {
     CAPTURE(scene.name);
@@ -160,7 +163,7 @@ TEST_CASE("observed_collision: in an elastic gas of any density, molecular chaos
           5 * std::sqrt(2.0 / 20));
     counted.clear();
     std::vector<double> expected;
-    for (std::size_t bin = 0; bin < 35; ++bin) {  // up to 3.5: 14 collisions in the last one
+    for (std::size_t bin = 0; bin < 35; ++bin) {  // up to 3.5: 14 collisions in the last bin
       const double low = static_cast<double>(bin) / 10, high = low + 0.1;
       counted.push_back(static_cast<double>(counts.normal_speed[bin]));
       expected.push_back(all * (std::exp(-low * low / 2) - std::exp(-high * high / 2)));
@@ -170,9 +173,9 @@ TEST_CASE("observed_collision: in an elastic gas of any density, molecular chaos
 }
 
 TEST_CASE("observed_collision: speeds are scaled by the temperature of the moment") {
-  // A cooling gas at low density stays close to Maxwell's distribution; scaled by the temperature
-  // of the last synchronization, speeds would be low by half of what is lost in 10 collisions per
-  // particle, more than a factor of 2. The mean of w is sqrt(pi/2), within a per cent by chance.
+  // A cooling gas at low density stays close to Maxwell's distribution. Scaled by the temperature
+  // of the last synchronization, speeds would be too low by half of the loss in 10 collisions per
+  // particle, more than a factor of 2. The mean of w is sqrt(pi/2), within a per cent of noise.
   for (const double mass_ratio : {1.0, 0.5}) {
     Scene scene{"cooling", {.restitution = 0.8}, 3, 0.02, 2000};
     scene.model.effects["mixture"] = {

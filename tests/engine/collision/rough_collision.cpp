@@ -22,7 +22,7 @@ Model rough(double e, double beta, double q = 0.4) {
   return {.restitution = e, .effects = {{"roughness", {{"beta", beta}, {"q", q}}}}};
 }
 
-// A state with spins, equal in energy to the velocities at q = 2/5.
+// A state with spins, whose energy equals that of the velocities at q = 2/5.
 State spinning(double n, std::uint32_t particles, std::uint64_t seed, int d = 3) {
   State state = initial_state(n, particles, seed, d);
   auto& spin = state.memory["spin"];
@@ -69,14 +69,14 @@ struct Pair {
     return 0.5 * (dot(a.velocity, a.velocity) + dot(b.velocity, b.velocity) +
                   q * (dot(w(0), w(0)) + dot(w(1), w(1))));
   }
-  // Orbital and, I omega = (q/2) w, of spin.
+  // Orbital angular momentum, and that of spin, I omega = (q/2) w.
   Vector angular_momentum(double q) const {
     const Vector of_a = cross(a.position, a.velocity), of_b = cross(b.position, b.velocity);
     Vector sum;
     for (std::size_t k = 0; k < 3; ++k) sum[k] = of_a[k] + of_b[k] + 0.5 * q * (w(0)[k] + w(1)[k]);
     return sum;
   }
-  // Of the surfaces in contact, a relative to b.
+  // The velocity of the surface of a relative to that of b, at the contact.
   Vector surface_velocity() const {
     Vector spins, g;
     for (std::size_t k = 0; k < 3; ++k) spins[k] = w(0)[k] + w(1)[k];
@@ -86,7 +86,7 @@ struct Pair {
   }
 };
 
-// Sums of a few numbers of order one.
+// The error of sums of a few numbers of order one.
 constexpr double rounding = 1e-14;
 
 }  // namespace
@@ -105,7 +105,7 @@ TEST_CASE("rough spheres: a collision reverses the surfaces' velocity by e and b
   }
 }
 
-TEST_CASE("rough spheres: momentum and angular momentum stay, energy falls by what is counted") {
+TEST_CASE("rough spheres: both momenta are conserved, and energy falls by the counted loss") {
   for (const double q : {0.1, 0.4, 1.0})
     for (const double beta : {-1.0, -0.5, 0.5, 1.0}) {
       CAPTURE(q);
@@ -158,31 +158,31 @@ TEST_CASE("rough disks equal the reference, and stay in their plane") {
                        std::invalid_argument);
 }
 
-TEST_CASE("rough spheres: those of beta = -1 move as smooth ones") {
+TEST_CASE("rough spheres: with beta = -1 they move like smooth spheres") {
   const State start = spinning(0.4, 500, 1);
   Simulation smooth({.restitution = 0.8}, start);
   Simulation gas(rough(0.8, -1), start);
   smooth.run_to(collisions_at(40, 500));
   gas.run_to(collisions_at(40, 500));
   CHECK(smooth.velocities() == gas.velocities());
-  // Nothing touches the spins, and scaling is exact.
+  // No collision changes the spins, and scaling is exact.
   CHECK(std::ldexp(gas.rotational_energy().value(), -2 * gas.exponent()) ==
         doctest::Approx(1).epsilon(1e-12));
   CHECK_FALSE(smooth.rotational_energy().has_value());
 }
 
-TEST_CASE("rough spheres: perfectly rough and elastic ones keep the sum of both energies") {
+TEST_CASE("rough spheres: perfectly rough, elastic spheres conserve the sum of both energies") {
   Simulation gas(rough(1, 1), initial_state(0.4, 500, 1));
   gas.run_to(collisions_at(50, 500));
   const double translation = tests::energy(gas) / 500;
   const double rotation = std::ldexp(gas.rotational_energy().value(), -2 * gas.exponent());
   // Each of 12 500 collisions rounds them by about 1e-16 of a particle's share.
   CHECK(std::abs(translation + rotation - 1) < 1e-12);
-  CHECK(rotation > 0.4);  // from rest
+  CHECK(rotation > 0.4);  // spins start at rest
   CHECK(gas.invariants().energy_mismatch < 1e-13);
 }
 
-TEST_CASE("rough spheres: a gas continued from its state is the same gas") {
+TEST_CASE("rough spheres: a run continued from its state is the same run") {
   for (const double beta : {-0.5, 0.8}) {
     Simulation whole(rough(0.7, beta), initial_state(0.4, 500, 3));
     whole.run_to(collisions_at(20, 500));
@@ -195,11 +195,11 @@ TEST_CASE("rough spheres: a gas continued from its state is the same gas") {
       CHECK(whole.rotational_energy() == continued.rotational_energy());
     }
     CHECK(whole.state() == continued.state());
-    CHECK(whole.exponent() > 0);  // spins were scaled on the way
+    CHECK(whole.exponent() > 0);  // spins were rescaled on the way
   }
 }
 
-TEST_CASE("rough spheres: what they need is asked for, by name") {
+TEST_CASE("rough spheres: missing parameters are named") {
   const State start = initial_state(0.4, 108, 1);
   CHECK_THROWS_WITH_AS(Simulation(rough(0.8, 1.1), start), "the model needs beta from -1 to 1",
                        std::invalid_argument);

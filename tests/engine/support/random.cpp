@@ -23,9 +23,9 @@ TEST_CASE("streams of one seed differ") {
 }
 
 TEST_CASE("normal deviates have normal moments and tails") {
-  // With 4e5 deviates the moments of order 1, 2, 4 have standard errors sqrt({1, 2, 96}/n), and
-  // the share beyond 2 has sqrt(p (1 - p)/n). Each is allowed 4.4 of them: together a false alarm
-  // once in 20 000 seeds, and the seed is fixed.
+  // With 4e5 deviates the moments of order 1, 2, 4 have standard errors sqrt({1, 2, 96}/n), and the
+  // share beyond 2 has sqrt(p (1 - p)/n). Each may deviate by 4.4 standard errors: together a false
+  // alarm once in 20 000 seeds, and the seed is fixed.
   constexpr int n = 400'000;
   constexpr double allowed = 4.4;
   Random random(42, Stream::velocities);
@@ -48,9 +48,9 @@ TEST_CASE("normal deviates have normal moments and tails") {
 }
 
 TEST_CASE("a number below a count is uniform, however large the count") {
-  // Remainders alone would have the lowest third of 3/4 of all numbers twice as often as the
-  // others: 1/2 of 3000 draws, not 1/3 with a standard error of 26. Five of them are a false alarm
-  // once in two million seeds, and the seed is fixed.
+  // Remainders alone would give the lowest third of 3/4 of all numbers twice as often as the
+  // others: 1/2 of 3000 draws, not 1/3 with a standard error of 26. Five standard errors are a
+  // false alarm once in two million seeds, and the seed is fixed.
   constexpr std::uint64_t third = std::uint64_t{1} << 62U;
   Random random(7, Stream::velocities);
   int lowest = 0;
