@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-# Which folder may use which. The rooms engine, analysis and schema know only themselves; campaign
-# uses them all, and the folders of campaign and schema form graphs
-# without a circle, drawn in their README.md.
+# Checks which folder uses which. The rooms engine, analysis and schema know only themselves; campaign
+# uses all of them. The folders of campaign and schema form graphs without a circle, drawn in their
+# README.md.
 #   cmake -DSOURCE=<repository> -P tests/rooms.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# The folders of campaign/ and of schema/, and what each may include besides itself. A folder may also
-# include whatever a folder that it may include may. A folder within one of them is a part of it.
+# The folders of campaign/ and of schema/, and the folders that each may include besides itself. This
+# holds along chains: what a folder may include, its users may include, too. Subfolders count as part of
+# their folder.
 set(campaign_base)
 set(campaign_state base)
 set(campaign_job state)

@@ -30,12 +30,12 @@ elseif(WAY STREQUAL FetchContent)
 else()
   set(project tests/library)
 endif()
-# That it builds, is found and runs is what is tried, so one SIMD target is enough, unoptimized.
+# The test is whether the engine is found, builds and runs: one SIMD target without optimization suffices.
 run(${CMAKE_COMMAND} -S "${WORK}/haff source/${project}" -B "${WORK}/its build" -G ${GENERATOR}
   -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=-O0 -DHWY_COMPILE_ONLY_STATIC" ${options})
 if(WAY STREQUAL FetchContent AND GENERATOR MATCHES Ninja)
-  # FetchContent calls add_subdirectory(), whose test builds and runs everything: here the project is
-  # configured, and the example compiled with what it was given to find the headers.
+  # FetchContent calls add_subdirectory(), whose test builds and runs everything. Here the project is only
+  # configured, and the example compiled, so that its headers must be found.
   run(${CMAKE_COMMAND} --build "${WORK}/its build" --target CMakeFiles/cooling.dir/cooling.cpp.o)
 else()
   run(${CMAKE_COMMAND} --build "${WORK}/its build")
