@@ -99,7 +99,7 @@ class Realization {
       collide(law, std::min({wanted, next_round, next_kick}));
       if (collisions_ == next_round) {
         ++round_;
-        look();
+        set_trial_rate();
       }
       if (heating_ > 0 && collisions_ == next_kick) {
         ++kick_;
@@ -164,7 +164,7 @@ class Realization {
     time_ = last_kick_ = 0;
     collisions_ = round_ = kick_ = 0;
     last_.assign(last_.size(), -std::numeric_limits<double>::infinity());
-    look();
+    set_trial_rate();
   }
 
   void remove_momentum() {
@@ -176,7 +176,7 @@ class Realization {
   }
 
   // Sets the largest speed and the time between trials according to the present temperature.
-  void look() {
+  void set_trial_rate() {
     double temperature = moments(velocity_, d).temperature;
     if (std::ilogb(temperature) < coldest_exponent) {
       const int up = -std::ilogb(temperature) / 2;
@@ -284,9 +284,9 @@ class Realization {
     last_kick_ = time_;
     for (Velocity& v : velocity_)
       for (int axis = 0; axis < d; ++axis)
-        v[static_cast<std::size_t>(axis)] += width * random_.bell();
+        v[static_cast<std::size_t>(axis)] += width * random_.nearly_normal();
     remove_momentum();
-    look();
+    set_trial_rate();
   }
 
   Random random_;

@@ -66,7 +66,7 @@ class Random {
 
   // The number of ones among 64 fair bits, minus its mean, over its standard deviation 4: mean 0,
   // variance 1, excess kurtosis -1/32. The sum of many such numbers is Gaussian.
-  double bell() { return (std::popcount(bits()) - 32) / 4.0; }
+  double nearly_normal() { return (std::popcount(bits()) - 32) / 4.0; }
 
  private:
   static std::uint64_t mixed(std::uint64_t z) {

@@ -14,7 +14,7 @@ namespace haff::analysis {
 namespace {
 
 // Speeds c beyond tail_begin, sorted, so that sums do not depend on the order of the particles.
-std::vector<double> fast_ones(std::span<const Vector> velocity, double v0_squared, int d) {
+std::vector<double> fast_speeds(std::span<const Vector> velocity, double v0_squared, int d) {
   std::vector<double> speeds;
   for (const Vector& v : velocity) {
     const double planar = v[0] * v[0] + v[1] * v[1];
@@ -89,7 +89,7 @@ double exponent_of(const std::vector<double>& speeds, int d) {
 Tail tail(std::span<const Vector> velocity, int d) {
   const double v0_squared = 2 * moments(velocity, d).temperature;
   if (!(v0_squared > 0)) throw std::invalid_argument("the tail of a gas at rest");
-  const auto speeds = fast_ones(velocity, v0_squared, d);
+  const auto speeds = fast_speeds(velocity, v0_squared, d);
 
   Tail result{.c = {}, .rho = {}, .particles = speeds.size()};
   const double ball = unit_sphere_surface(d) / d / std::pow(std::numbers::pi, 0.5 * d);

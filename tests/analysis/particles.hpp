@@ -31,7 +31,7 @@ class Random {
 };
 
 // Random positions in the box; particles may overlap.
-inline std::vector<Vector> anywhere(std::size_t count, double box, Random& random) {
+inline std::vector<Vector> random_positions(std::size_t count, double box, Random& random) {
   std::vector<Vector> position(count);
   for (Vector& r : position)
     for (double& x : r) x = box * random.uniform();
@@ -39,7 +39,7 @@ inline std::vector<Vector> anywhere(std::size_t count, double box, Random& rando
 }
 
 // Gaussian velocities of temperature 1.
-inline std::vector<Vector> thermal(std::size_t count, Random& random) {
+inline std::vector<Vector> thermal_velocities(std::size_t count, Random& random) {
   std::vector<Vector> velocity(count);
   for (Vector& v : velocity)
     for (double& component : v) component = random.gaussian();

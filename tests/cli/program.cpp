@@ -172,15 +172,15 @@ double number(const Folder& folder, const std::string& sql) {
   return statement.getColumn(0).getDouble();
 }
 
-void sabotage(const Folder& folder, const std::string& sql) {
+void edit_rows(const Folder& folder, const std::string& sql) {
   SQLite::Database store(folder.store().string(), SQLite::OPEN_READWRITE, 10'000);
   store.exec(sql);
 }
 
-void change(const Folder& folder, const std::string& sql) {
-  sabotage(folder, sql +
-                       "; DELETE FROM table_digests; DELETE FROM digests; "
-                       "INSERT INTO digests (job_id) SELECT job_id FROM jobs");
+void edit_unnoticed(const Folder& folder, const std::string& sql) {
+  edit_rows(folder, sql +
+                        "; DELETE FROM table_digests; DELETE FROM digests; "
+                        "INSERT INTO digests (job_id) SELECT job_id FROM jobs");
 }
 
 }  // namespace haff::tests

@@ -71,9 +71,9 @@ std::string rows(const Folder& folder);
 double number(const Folder& folder, const std::string& sql);
 
 // Changes the store behind the program's back.
-void sabotage(const Folder& folder, const std::string& sql);
+void edit_rows(const Folder& folder, const std::string& sql);
 
 // The same as by a program without digests, so that the change is not noticed.
-void change(const Folder& folder, const std::string& sql);
+void edit_unnoticed(const Folder& folder, const std::string& sql);
 
 }  // namespace haff::tests

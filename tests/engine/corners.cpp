@@ -25,7 +25,7 @@ namespace {
 
 constexpr engine::SearchBackend plain = engine::SearchBackend::scalar;
 
-State at_rest_as_a_whole(State state) {
+State without_momentum(State state) {
   Vector mean{};
   for (const Vector& v : state.velocity)
     for (std::size_t k = 0; k < 3; ++k) mean[k] += v[k] / static_cast<double>(state.id.size());
@@ -36,7 +36,7 @@ State at_rest_as_a_whole(State state) {
 
 // The same events and bits as in the naive engine, with no event lost or out of order.
 void agrees(const engine::Model& model, const State& any, double tau) {
-  const State start = at_rest_as_a_whole(any);
+  const State start = without_momentum(any);
   Simulation gas(model, start);
   Simulation scalar(model, start, plain);
   Reference<> reference(model, start);
@@ -166,8 +166,8 @@ TEST_CASE("corner: a dense crystal keeps its pressure and does not overlap") {
   Simulation gas({.restitution = 1}, engine::initial_state(0.70 * 6 / std::numbers::pi, 500, 1));
   gas.run_to(engine::collisions_at(100, 500));
   const double z = 0.70 / (std::numbers::pi * std::sqrt(2.0) / 6);
-  const double speedy = 3 / (1 - z) - 0.5921 * (z - 0.7072) / (z - 0.601);
-  CHECK(compressibility(gas, 200) == doctest::Approx(speedy).epsilon(0.01));
+  const double pressure_by_speedy = 3 / (1 - z) - 0.5921 * (z - 0.7072) / (z - 0.601);
+  CHECK(compressibility(gas, 200) == doctest::Approx(pressure_by_speedy).epsilon(0.01));
   CHECK(engine::largest_overlap(gas.invariants()) < 1e-13);
 }
 

@@ -63,7 +63,7 @@ void plan(const Folder& folder, const std::string& grid) {
   REQUIRE_MESSAGE(planned.exit_code == 0, planned.err);
 }
 
-std::string calm_rows(const std::string& grid) {
+std::string undisturbed_rows(const std::string& grid) {
   const Folder folder;
   plan(folder, grid);
   REQUIRE(campaign(folder, {"run", "--workers", "2"}).exit_code == 0);
@@ -154,7 +154,7 @@ namespace {
 
 // Divides, runs, kills, merges and recalls at random until nothing is pending or lent. Returns how
 // many merges were killed at work.
-int wander(const Folder& folder, std::mt19937& random) {
+int run_random_campaign(const Folder& folder, std::mt19937& random) {
   int killed = 0;
   const auto some = [&](unsigned most) { return std::chrono::milliseconds(random() % most); };
   for (int round = 0;; ++round) {
@@ -186,22 +186,22 @@ int wander(const Folder& folder, std::mt19937& random) {
 
 }  // namespace
 
-int wander(unsigned seed) {
+int run_random_campaign(unsigned seed) {
   std::mt19937 random(seed);
   const std::string grid = random_grid(random);
   CAPTURE(seed);
   CAPTURE(grid);
-  const std::string expected = calm_rows(grid);
+  const std::string expected = undisturbed_rows(grid);
   const Folder folder;
   plan(folder, grid);
-  const int killed = wander(folder, random);
+  const int killed = run_random_campaign(folder, random);
   CHECK(rows(folder) == expected);
   CHECK(campaign(folder, {"run"}).exit_code == 0);
   CHECK(campaign(folder, {"verify"}).exit_code == 0);
   return killed;
 }
 
-void check_home(const Folder& folder, const std::string& expected) {
+void check_completed(const Folder& folder, const std::string& expected) {
   CAPTURE(logs(folder));
   CHECK(number(folder, "SELECT count(*) FROM jobs WHERE status <> 'done'") == 0);
   CHECK(rows(folder) == expected);

@@ -25,7 +25,7 @@ std::string random_grid(std::mt19937& random);
 void plan(const Folder& folder, const std::string& grid);
 
 // The rows of one undisturbed run of the grid.
-std::string calm_rows(const std::string& grid);
+std::string undisturbed_rows(const std::string& grid);
 
 // `campaign submit` with three tasks of one processor that save their shards each second, and
 // further words.
@@ -50,13 +50,13 @@ bool kill_after(const Folder& folder, std::vector<std::string> words,
 
 // A random campaign, divided, run, killed, merged and recalled at random until nothing is pending
 // or lent; checks that its rows are those of one run. Returns how many merges were killed at work.
-int wander(unsigned seed);
+int run_random_campaign(unsigned seed);
 
 // The ends of the logs of all tasks and merges, for messages.
 std::string logs(const Folder& folder);
 
 // Checks that all jobs are done, that the rows are these in every bit, and that the store is sound.
-void check_home(const Folder& folder, const std::string& expected);
+void check_completed(const Folder& folder, const std::string& expected);
 
 // The stretches of tau of cooling jobs that two attempts have both computed and stored, a line
 // each, from the logs of the tasks. There are none if only lost work was computed again.

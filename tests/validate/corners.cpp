@@ -22,7 +22,7 @@ double density(double phi) {
 }
 
 // Pressure of the fcc crystal: R. J. Speedy, J. Phys.: Condens. Matter 10, 4387 (1998).
-double speedy(double phi) {
+double pressure_by_speedy(double phi) {
   const double z = phi / (std::numbers::pi * std::numbers::sqrt2 / 6);
   return 3 / (1 - z) - 0.5921 * (z - 0.7072) / (z - 0.601);
 }
@@ -71,8 +71,8 @@ TEST_CASE("fcc crystal against Speedy") {
     CAPTURE(phi);
     engine::Simulation gas({.restitution = 1}, settled(phi, crystal));
     const double z = compressibility(gas, 200);
-    MESSAGE("Z = " << z << ", Speedy " << speedy(phi));
-    CHECK(z == doctest::Approx(speedy(phi)).epsilon(0.01));
+    MESSAGE("Z = " << z << ", Speedy " << pressure_by_speedy(phi));
+    CHECK(z == doctest::Approx(pressure_by_speedy(phi)).epsilon(0.01));
     CHECK(engine::largest_overlap(gas.invariants()) < 1e-13);
   }
 }

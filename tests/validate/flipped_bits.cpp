@@ -10,7 +10,7 @@ using namespace haff::tests;
 namespace {
 
 void check(const FlippedBits& result) {
-  MESSAGE(result.found, " of ", result.telling, " found, ", result.mended, " put right, of ",
+  MESSAGE(result.found, " of ", result.telling, " found, ", result.mended, " repaired, of ",
           result.flips, " flips");
   CHECK(result.found == result.telling);
 }

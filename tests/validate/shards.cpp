@@ -27,7 +27,7 @@ TEST_CASE(
   int killed = 0;
   for (unsigned seed = 101; seed <= 125; ++seed) {
     CAPTURE(seed);
-    killed += wander(seed);
+    killed += run_random_campaign(seed);
   }
   MESSAGE(killed << " merges were killed at work");
   CHECK(killed >= 100);

@@ -58,7 +58,7 @@ void signal_workers(const Folder& folder, const std::string& signal) {
 
 TEST_CASE("slurm: the paper's small grid, tasks cancelled, requeued and killed, a node lost") {
   const std::string grid = paper_small();
-  const std::string expected = calm_rows(grid);
+  const std::string expected = undisturbed_rows(grid);
   const Folder folder;
   const SlurmCluster cluster(folder / "slurm");
   plan(folder, grid);
@@ -79,7 +79,7 @@ TEST_CASE("slurm: the paper's small grid, tasks cancelled, requeued and killed, 
   cluster.start_daemon("n2");
   cluster.slurm("scontrol update nodename=n2 state=resume || true");
   go_on(folder, cluster, 800);
-  check_home(folder, expected);
+  check_completed(folder, expected);
   // A task that is cancelled stores what it can before it ends.
   CHECK(shell(folder, "cat shards/round-001-task-1.log").out.find("is left at tau = ") !=
         std::string::npos);
@@ -95,7 +95,7 @@ TEST_CASE("slurm: effects and a target, preempted and requeued: no stored work i
       {"e": 0.7, "tau_max": 800, "sample_every": 5,
        "effects": {"roughness": {"beta": 0.5, "q": 0.4}}},
       {"e": 0.9, "N": 1000, "seeds": 5, "tau_max": 15, "target": {"a2": {"tau": [5, 15], "se": 0.003}}}]})";
-  const std::string expected = calm_rows(grid);
+  const std::string expected = undisturbed_rows(grid);
   const Folder folder;
   const SlurmCluster cluster(folder / "slurm");
   plan(folder, grid);
@@ -112,7 +112,7 @@ TEST_CASE("slurm: effects and a target, preempted and requeued: no stored work i
   sleep_for(1s);
   cluster.slurm("scontrol requeue " + tasks_job(folder, 1) + "_1");
   go_on(folder, cluster, 800);
-  check_home(folder, expected);
+  check_completed(folder, expected);
   CHECK(shell(folder, "cat shards/*.log").out.find("goes on from tau = ") != std::string::npos);
   CHECK(computed_twice(folder) == "");
   CHECK(number(folder, "SELECT count(*) FROM jobs WHERE e = 0.9 AND seed > 5") > 0);
@@ -123,7 +123,7 @@ TEST_CASE("slurm: a time limit ends tasks, and the next round does the remaining
   // until Slurm ends them: SIGCONT, SIGTERM, and SIGKILL two seconds later.
   const std::string grid = R"({"e": [0.9, 0.95], "n": 0.4, "N": 1000, "seeds": 3, "tau_max": 5000,
     "sample_every": 50, "checkpoint_every": 50, "observables": ["temperature"]})";
-  const std::string expected = calm_rows(grid);
+  const std::string expected = undisturbed_rows(grid);
   const Folder folder;
   const SlurmCluster cluster(folder / "slurm");
   plan(folder, grid);
@@ -135,7 +135,7 @@ TEST_CASE("slurm: a time limit ends tasks, and the next round does the remaining
   CHECK(std::filesystem::exists(folder / "shards/round-002.json"));
   CHECK(shell(folder, "cat shards/*.log").out.find("DUE TO TIME LIMIT") != std::string::npos);
   CHECK(computed_twice(folder) == "");
-  check_home(folder, expected);
+  check_completed(folder, expected);
 }
 
 TEST_CASE(
@@ -145,7 +145,7 @@ TEST_CASE(
     MESSAGE("SKIPPED: only root may mount a tmpfs where Slurm's tasks see it");
     return;
   }
-  const std::string expected = calm_rows(grid_with_everything);
+  const std::string expected = undisturbed_rows(grid_with_everything);
   plan(folder, grid_with_everything);
   {
     const SlurmCluster cluster(folder / "slurm");
@@ -159,6 +159,6 @@ TEST_CASE(
     shell(folder, "umount small");
     go_on(folder, cluster, 200);
   }
-  check_home(folder, expected);
+  check_completed(folder, expected);
   CHECK(computed_twice(folder) == "");
 }

@@ -43,7 +43,7 @@ TEST_CASE("cluster_sizes: the share of single particles at random positions is P
     const double v =
         d == 3 ? 4 * std::numbers::pi / 3 * bond * bond * bond : std::numbers::pi * bond * bond;
     const double box = std::pow(static_cast<double>(count) * v / 0.5, 1.0 / d);
-    const auto found = cluster_sizes(anywhere(count, box, random), box, d);
+    const auto found = cluster_sizes(random_positions(count, box, random), box, d);
     const double p = std::exp(-0.5);
     CHECK(std::abs(found.share[0] - p) <
           5 * std::sqrt(2 * p * (1 - p) / static_cast<double>(count)));

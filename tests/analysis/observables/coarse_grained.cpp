@@ -49,7 +49,8 @@ TEST_CASE("coarse-grained: the local temperature has no bias from few particles"
   // - cells))) = 0.0053. Within 4.5 of them: a false alarm in one of 150 000 seeds.
   Random random(7);
   constexpr std::size_t count = 32000;
-  const auto field = coarse_grained(anywhere(count, 20, random), thermal(count, random), 20, 20);
+  const auto field = coarse_grained(random_positions(count, 20, random),
+                                    thermal_velocities(count, random), 20, 20);
   double sum = 0, freedom = 0;
   for (std::size_t c = 0; c < field.temperature.size(); ++c) {
     if (std::isnan(field.temperature[c])) continue;

@@ -19,7 +19,7 @@ TEST_CASE("displacements: two particles by hand") {
 
 TEST_CASE("displacements: velocities correlate with themselves, however the gas has cooled") {
   Random random(14);
-  const auto before = thermal(100, random);
+  const auto before = thermal_velocities(100, random);
   auto now = before;
   for (Vector& v : now)
     for (double& x : v) x *= 1e-3;

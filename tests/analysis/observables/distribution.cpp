@@ -30,7 +30,7 @@ double integral(const SpeedDistribution& speeds, int d) {
 
 TEST_CASE("distribution: integrates to pi^(d/2)") {
   Random random(8);
-  const auto velocity = thermal(1000, random);
+  const auto velocity = thermal_velocities(1000, random);
   for (const int d : {2, 3})
     CHECK(integral(speed_distribution(velocity, d), d) ==
           Approx(std::pow(pi, 0.5 * d)).epsilon(1e-12));
@@ -51,7 +51,7 @@ TEST_CASE("distribution: a Gaussian gas has exp(-c^2)") {
   // between shell and middle: a false alarm in one of 4000 seeds.
   Random random(9);
   constexpr std::size_t count = 1'000'000;
-  const auto speeds = speed_distribution(thermal(count, random));
+  const auto speeds = speed_distribution(thermal_velocities(count, random));
   for (std::size_t i = 0; i < speeds.c.size(); ++i) {
     const double c = speeds.c[i], gaussian = std::exp(-c * c);
     const double particles = count * gaussian * 4 * pi * c * c * 0.1 / std::pow(pi, 1.5);
@@ -63,7 +63,7 @@ TEST_CASE("distribution: a Gaussian gas has exp(-c^2)") {
 
 TEST_CASE("distribution: scaled velocities have the same distribution") {
   Random random(10);
-  auto velocity = thermal(1000, random);
+  auto velocity = thermal_velocities(1000, random);
   const auto before = speed_distribution(velocity).rho;
   for (Vector& v : velocity)
     for (double& component : v) component *= 0x1p-40;

@@ -66,8 +66,8 @@ TEST_CASE("energy_spectrum: equipartition of thermal velocities") {
     const std::size_t count = 20000;
     const double box = d == 3 ? 36 : 200;
     const double n = static_cast<double>(count) / std::pow(box, d);
-    const auto position = anywhere(count, box, random);
-    const auto found = energy_spectrum(position, thermal(count, random), {}, box, d);
+    const auto position = random_positions(count, box, random);
+    const auto found = energy_spectrum(position, thermal_velocities(count, random), {}, box, d);
     REQUIRE(found.k.size() >= 8);
     for (std::size_t s = 0; s < 8; ++s) {
       const double shell = static_cast<double>(s) + 1;
@@ -83,13 +83,13 @@ TEST_CASE("energy_spectrum: equipartition of thermal velocities") {
 TEST_CASE("energy_spectrum: equipartition of particles of two masses") {
   Random random(9);
   const std::size_t count = 20000;
-  auto velocity = thermal(count, random);
+  auto velocity = thermal_velocities(count, random);
   std::vector<double> mass(count);
   for (std::size_t i = 0; i < count; ++i) {
     mass[i] = i % 2 == 0 ? 1 : 0.04;
     for (double& v : velocity[i]) v /= std::sqrt(mass[i]);
   }
-  const auto position = anywhere(count, 36, random);
+  const auto position = random_positions(count, 36, random);
   const auto found = energy_spectrum(position, velocity, mass, 36);
   const double n = count / std::pow(36.0, 3);
   for (std::size_t s = 2; s < 8; ++s) {  // within 4.5 standard errors, as above

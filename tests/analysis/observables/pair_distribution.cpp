@@ -23,7 +23,7 @@ TEST_CASE("pair_distribution: g = 1 for particles at random positions, also at c
     Random random(5);
     const double box = 40;
     const std::size_t count = d == 3 ? 20000 : 2000;
-    auto position = anywhere(count, box, random);
+    auto position = random_positions(count, box, random);
     const auto all = pair_distribution(position, box, d);
     REQUIRE(all.r.size() == 61);
     CHECK(all.r[0] == 1);
@@ -45,7 +45,7 @@ TEST_CASE("pair_distribution: g = 1 for particles at random positions, also at c
 
 TEST_CASE("pair_distribution: the pairs within and between two species are all pairs") {
   Random random(6);
-  const auto all = anywhere(3000, 20, random);
+  const auto all = random_positions(3000, 20, random);
   const std::vector<Vector> one(all.begin(), all.begin() + 1000),
       other(all.begin() + 1000, all.end());
   const auto a = pair_distribution(one, 20), b = pair_distribution(other, 20),
@@ -75,7 +75,7 @@ TEST_CASE("pair_distribution: neighbours on a lattice, also through the faces of
 TEST_CASE("pair_distribution: a small box has no cells, but the same pairs") {
   Random random(7);
   // The reach is 2 in a box of 4; compared with brute force.
-  const auto position = anywhere(200, 4, random);
+  const auto position = random_positions(200, 4, random);
   const auto found = pair_distribution(position, 4);
   REQUIRE(found.r.size() == 21);
   double pairs = 0;
@@ -98,7 +98,7 @@ TEST_CASE("pair_distribution: a small box has no cells, but the same pairs") {
 
 TEST_CASE("pair_distribution: a shorter reach leaves out bins and does not change the others") {
   Random random(8);
-  const auto position = anywhere(2000, 15, random);
+  const auto position = random_positions(2000, 15, random);
   const auto all = pair_distribution(position, 15);
   const auto near = pair_distribution(position, 15, 3, 1, 1 + contact_range);
   REQUIRE(near.r.size() == 9);

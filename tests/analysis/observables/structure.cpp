@@ -41,7 +41,7 @@ TEST_CASE("structure: the sum over particles, mode by mode") {
   Random random(3);
   for (const int d : {2, 3}) {
     CAPTURE(d);
-    auto position = anywhere(1000, 16, random);
+    auto position = random_positions(1000, 16, random);
     for (Vector& r : position) {  // density 1 + 0.8 cos(2 k_1 x)
       while (random.uniform() > (1 + 0.8 * std::cos(4 * pi * r[0] / 16)) / 1.8)
         r[0] = 16 * random.uniform();
@@ -67,7 +67,7 @@ TEST_CASE("structure: uncorrelated particles have S = 1") {
   // |mode|^2/N is exponential with variance 1, and half of the modes are independent: within 4.5
   // standard errors at 11 wave numbers, a false alarm in one of 13 000 seeds.
   Random random(4);
-  const auto measured = structure_factor(anywhere(40000, 46.4, random), 46.4);
+  const auto measured = structure_factor(random_positions(40000, 46.4, random), 46.4);
   REQUIRE(measured.value.size() == 11);
   for (std::size_t s = 0; s < measured.value.size(); ++s) {
     const double shell = static_cast<double>(s) + 1;
@@ -106,7 +106,7 @@ TEST_CASE("clusters: the largest dense region is counted") {
 
 TEST_CASE("clusters: particles at random positions have hardly any") {
   Random random(6);
-  CHECK(largest_cluster(anywhere(100000, 62, random), 62) < 0.005);
+  CHECK(largest_cluster(random_positions(100000, 62, random), 62) < 0.005);
 }
 
 TEST_CASE("structure: no particles and small boxes are refused") {

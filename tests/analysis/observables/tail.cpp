@@ -52,7 +52,7 @@ TEST_CASE("tail: the exponent of the density from which the speeds were drawn") 
 TEST_CASE("tail: bins of a Gaussian gas") {
   // 440 of 10^6 speeds are beyond 3: bins agree within 4.5 standard errors plus the bin's width.
   Random random(12);
-  const auto found = tail(thermal(1'000'000, random));
+  const auto found = tail(thermal_velocities(1'000'000, random));
   REQUIRE(found.c.size() == tail_bins);
   CHECK(found.c[0] == Approx(3 * std::sqrt(tail_factor)));
   const auto begins_beyond = [](double c) {  // P(c > low)
@@ -71,6 +71,6 @@ TEST_CASE("tail: bins of a Gaussian gas") {
 
 TEST_CASE("tail: too few speeds have no exponent") {
   Random random(13);
-  CHECK_FALSE(tail(thermal(1000, random)).exponent);
+  CHECK_FALSE(tail(thermal_velocities(1000, random)).exponent);
   CHECK_THROWS_AS(tail(std::vector<Vector>(5)), std::invalid_argument);
 }

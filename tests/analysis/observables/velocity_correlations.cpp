@@ -60,9 +60,9 @@ TEST_CASE("velocity correlations: the same as sums over all pairs") {
     CAPTURE(d);
     Random random(5);
     const double box = 9.3;                  // 9 cells: an odd number
-    for (const double wide : {box, 10.9}) {  // and 10
-      const auto position = anywhere(700, wide, random);
-      const auto velocity = thermal(700, random);
+    for (const double wide : {box, 10.9}) {  // and 10 cells
+      const auto position = random_positions(700, wide, random);
+      const auto velocity = thermal_velocities(700, random);
       const Mesh mesh{.box = wide, .cells = static_cast<int>(wide), .d = d};
       const auto fast = velocity_correlations(position, velocity, wide, 1, d);
       const auto slow = by_pairs(position, velocity, mesh);
@@ -117,8 +117,8 @@ TEST_CASE("velocity correlations: independent velocities have none") {
   Random random(1);
   constexpr std::size_t count = 40000;
   const double box = 46.4;
-  const auto position = anywhere(count, box, random);
-  const auto velocity = thermal(count, random);
+  const auto position = random_positions(count, box, random);
+  const auto velocity = thermal_velocities(count, random);
   const auto g = velocity_correlations(position, velocity, box, 1.0);
   REQUIRE(g.r.size() == 22);
   for (std::size_t s = 0; s < g.r.size(); ++s) {
@@ -134,8 +134,8 @@ TEST_CASE("velocity correlations: independent velocities have none") {
 
 TEST_CASE("velocity correlations: the same bits every time") {
   Random random(2);
-  const auto position = anywhere(5000, 23.2, random);
-  const auto velocity = thermal(5000, random);
+  const auto position = random_positions(5000, 23.2, random);
+  const auto velocity = thermal_velocities(5000, random);
   const auto one = velocity_correlations(position, velocity, 23.2, 1);
   const auto other = velocity_correlations(position, velocity, 23.2, 1);
   CHECK(one.parallel == other.parallel);

@@ -29,11 +29,11 @@ std::string first_shard(const Folder& folder) {
 
 TEST_CASE(
     "shards: random campaigns, divided, killed and merged at random, are the same in every bit") {
-  for (const unsigned seed : {1U, 2U, 3U, 4U}) wander(seed);
+  for (const unsigned seed : {1U, 2U, 3U, 4U}) run_random_campaign(seed);
 }
 
 TEST_CASE("shards: a merge killed at 100 moments leaves a store that the next one completes") {
-  const std::string expected = calm_rows(grid);
+  const std::string expected = undisturbed_rows(grid);
   std::mt19937 random(11);
   const Folder folder;
   plan(folder, grid);
@@ -59,7 +59,7 @@ TEST_CASE("shards: a merge killed at 100 moments leaves a store that the next on
                                std::filesystem::copy_options::overwrite_existing);
   }
   REQUIRE(campaign(folder, merge).exit_code == 0);
-  check_home(folder, expected);
+  check_completed(folder, expected);
 }
 
 TEST_CASE("shards: lent jobs are not run in the store, and a merge during a run is allowed") {
@@ -132,7 +132,7 @@ TEST_CASE(
         std::string("campaign.db: is a store, but not a shard"),
         std::string("nowhere.db: there is no such store")})
     CHECK_MESSAGE(merged.err.find(word) != std::string::npos, merged.err);
-  CHECK(rows(folder) == calm_rows(grid));
+  CHECK(rows(folder) == undisturbed_rows(grid));
 }
 
 TEST_CASE("shards: a damaged state is refused, and recall computes it again") {
@@ -147,5 +147,5 @@ TEST_CASE("shards: a damaged state is refused, and recall computes it again") {
   CHECK(campaign(folder, {"merge", first_shard(folder)}).exit_code == 1);
   CHECK(campaign(folder, {"recall", "shard-001"}).exit_code == 0);
   CHECK(campaign(folder, {"run"}).exit_code == 0);
-  CHECK(rows(folder) == calm_rows(grid));
+  CHECK(rows(folder) == undisturbed_rows(grid));
 }

@@ -13,7 +13,7 @@ using namespace haff::tests;
 using namespace std::chrono_literals;
 
 TEST_CASE("slurm: a campaign with effects and a target is completed on two nodes") {
-  const std::string expected = calm_rows(grid_with_everything);
+  const std::string expected = undisturbed_rows(grid_with_everything);
   const Folder folder;
   const SlurmCluster cluster(folder / "slurm");
   plan(folder, grid_with_everything);
@@ -31,7 +31,7 @@ TEST_CASE("slurm: a campaign with effects and a target is completed on two nodes
   CHECK(campaign(folder, {"status"}).out.find("shard-001") != std::string::npos);
 
   cluster.wait_until_empty(180);
-  check_home(folder, expected);
+  check_completed(folder, expected);
   CHECK(number(folder, "SELECT count(*) FROM shards WHERE returned IS NULL") == 0);
   CHECK(computed_twice(folder) == "");
   // The target was judged after the first round, and its further seeds were submitted.
@@ -66,7 +66,7 @@ TEST_CASE(
   CHECK(last.exit_code == 0);
   CHECK_MESSAGE(last.err.find("goes on from tau = ") != std::string::npos, last.err);
   CHECK(campaign(folder, {"merge", "shards/shard-001.db"}).exit_code == 0);
-  CHECK(rows(folder) == calm_rows(long_grid));
+  CHECK(rows(folder) == undisturbed_rows(long_grid));
   CHECK_FALSE(std::filesystem::exists(folder / "shards/shard-001.db.task"));
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("slurm: when a scratch folder is full, only data that were not put bac
   CHECK(campaign(folder, {"task", "shards/shard-001.db", "--workers", "2"}).exit_code == 0);
   CHECK(campaign(folder, {"merge", "shards/shard-001.db"}).exit_code == 0);
   CHECK(campaign(folder, {"run"}).exit_code == 0);  // the target's further seeds
-  CHECK(rows(folder) == calm_rows(grid_with_everything));
+  CHECK(rows(folder) == undisturbed_rows(grid_with_everything));
   // A scratch folder without room for the shard itself is named before any work is done.
   const Outcome none =
       shell(folder, "ulimit -f 10; exec \"$campaign\" task shards/shard-001.db --workers 2");

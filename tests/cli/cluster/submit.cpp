@@ -30,7 +30,7 @@ echo "$*" >> submitted
 wc -l < submitted
 )SH";
 
-void play_slurm(const Folder& folder) {
+void fake_slurm(const Folder& folder) {
   std::filesystem::create_directory(folder / "bin");
   folder.write("bin/sbatch", fake_sbatch);
   folder.write("bin/squeue", "#!/bin/sh\ncat \"$(dirname \"$0\")/queue\"\n");
@@ -82,7 +82,7 @@ double count_jobs(const Folder& folder, const std::string& status) {
 
 TEST_CASE("submit: a running round is left alone, and one that has ended is merged") {
   const Folder folder;
-  play_slurm(folder);
+  fake_slurm(folder);
   plan(folder, small_grid);
   REQUIRE(submit_here(folder).exit_code == 0);
   CHECK(tasks_job(folder, 1) == "1");
@@ -112,12 +112,12 @@ TEST_CASE("submit: a running round is left alone, and one that has ended is merg
 
   run_shards(folder, "shards/shard-*.db");
   CHECK(submit_here(folder).exit_code == 0);
-  check_home(folder, calm_rows(small_grid));
+  check_completed(folder, undisturbed_rows(small_grid));
 }
 
 TEST_CASE("submit: no more rounds than --rounds allows, and none after a round without progress") {
   const Folder folder;
-  play_slurm(folder);
+  fake_slurm(folder);
   plan(folder, small_grid);
   REQUIRE(submit_here(folder, "--rounds 1").exit_code == 0);
   run_shards(folder, "shards/shard-001.db");
@@ -137,7 +137,7 @@ TEST_CASE("submit: no more rounds than --rounds allows, and none after a round w
 TEST_CASE(
     "submit: shards that sbatch refuses are taken back; an unattended round first tries again") {
   const Folder folder;
-  play_slurm(folder);
+  fake_slurm(folder);
   plan(folder, small_grid);
   folder.write("bin/refuse", "once\n");
   folder.write("bin/refuse_only", "--dependency");
@@ -157,10 +157,10 @@ TEST_CASE(
 }
 
 TEST_CASE("submit: after a kill at any moment, the next submit knows which shards are lent") {
-  const std::string expected = calm_rows(small_grid);
+  const std::string expected = undisturbed_rows(small_grid);
   std::mt19937 random(5);
   const Folder folder;
-  play_slurm(folder);
+  fake_slurm(folder);
   plan(folder, small_grid);
   int killed = 0;
   for (int round = 0; round < 30; ++round) {
@@ -175,7 +175,7 @@ TEST_CASE("submit: after a kill at any moment, the next submit knows which shard
   CHECK_MESSAGE(next.exit_code == 0, next.err);
   run_shards(folder, "shards/shard-*.db");
   CHECK(submit_here(folder).exit_code == 0);
-  check_home(folder, expected);
+  check_completed(folder, expected);
 }
 
 TEST_CASE("submit: without sbatch the lines for other schedulers are printed, and they work") {
@@ -197,7 +197,7 @@ TEST_CASE("submit: without sbatch the lines for other schedulers are printed, an
   CHECK(campaign(folder,
                  {"merge", "shards/shard-001.db", "shards/shard-002.db", "shards/shard-003.db"})
             .exit_code == 0);
-  check_home(folder, calm_rows(small_grid));
+  check_completed(folder, undisturbed_rows(small_grid));
   const std::string condor = word_of(folder, "for_condor");
   for (const char* line : {"arguments = task --workers 2 $(shard)\n", "request_cpus = 2\n",
                            "queue shard matching files /"})

@@ -105,13 +105,13 @@ TEST_CASE("export: a job or state that does not exist is bad input") {
   CHECK(campaign(folder, {"export"}).exit_code == 2);
   CHECK(campaign(folder, {"export", "two"}).exit_code == 2);
 
-  change(folder, "DELETE FROM checkpoint_chunks; DELETE FROM checkpoints");
+  edit_unnoticed(folder, "DELETE FROM checkpoint_chunks; DELETE FROM checkpoints");
   const Outcome early = campaign(folder, {"export", "2"});
   CHECK(early.exit_code == 2);
   CHECK(early.err.find("no state of job 2") != std::string::npos);
   CHECK(early.err.find("with: campaign run") != std::string::npos);
   // If checkpoint_every is beyond the end of the job, its first state is its last one.
-  change(folder, "UPDATE jobs SET checkpoint_every = 1000");
+  edit_unnoticed(folder, "UPDATE jobs SET checkpoint_every = 1000");
   const Outcome late = campaign(folder, {"export", "1"});
   CHECK(late.err.find("first checkpoint, tau = 1000") == std::string::npos);
   CHECK(late.err.find("first checkpoint, tau = ") != std::string::npos);
@@ -134,7 +134,7 @@ TEST_CASE(
 TEST_CASE("export: a damaged state is not written") {
   const Folder folder;
   run(folder);
-  sabotage(folder, "UPDATE checkpoint_chunks SET bytes = zeroblob(length(bytes))");
+  edit_rows(folder, "UPDATE checkpoint_chunks SET bytes = zeroblob(length(bytes))");
   const Outcome outcome = campaign(folder, {"export", "2"});
   CHECK(outcome.exit_code == 1);
   CHECK(outcome.out.empty());
@@ -253,7 +253,7 @@ TEST_CASE("export: a damaged snapshot is not written; verify finds it, and --rep
   const Folder folder;
   run_with_snapshots(folder);
   const std::string before = rows(folder);
-  sabotage(folder, "UPDATE snapshot_chunks SET bytes = zeroblob(length(bytes)) WHERE time = 1.5");
+  edit_rows(folder, "UPDATE snapshot_chunks SET bytes = zeroblob(length(bytes)) WHERE time = 1.5");
   const Outcome damaged = campaign(folder, {"export", "2", "--at-time", "1.5"});
   CHECK(damaged.exit_code == 1);
   CHECK(damaged.out.empty());

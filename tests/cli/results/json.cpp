@@ -94,7 +94,7 @@ TEST_CASE("json: plot --list, and no picture") {
 TEST_CASE("json: verify of a fault, with its exit code") {
   const Folder folder;
   plan(folder);
-  sabotage(folder, "UPDATE jobs SET identity = 'nothing' WHERE job_id = 1");
+  edit_rows(folder, "UPDATE jobs SET identity = 'nothing' WHERE job_id = 1");
   const Outcome outcome = campaign(folder, {"verify", "--json"});
   CHECK(outcome.exit_code == 1);
   const json found = json::parse(outcome.out);
@@ -121,6 +121,6 @@ TEST_CASE("json: errors are one line of JSON on stderr, and nothing is on stdout
   CHECK(error_of({"query", "SELECT", "--json"}) == 2);
   CHECK(error_of({"explain", "99", "--json"}) == 2);
   CHECK(error_of({"figures", "--json"}) == 2);  // writes files, prints no JSON
-  sabotage(folder, "DROP TABLE jobs");
+  edit_rows(folder, "DROP TABLE jobs");
   CHECK(error_of({"status", "--json"}) != 0);
 }

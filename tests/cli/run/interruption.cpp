@@ -32,7 +32,7 @@ void plan(const Folder& folder, const char* grid) {
 }
 
 // The rows of an undisturbed campaign.
-std::string calm_rows(const char* grid) {
+std::string undisturbed_rows(const char* grid) {
   const Folder folder;
   plan(folder, grid);
   REQUIRE(campaign(folder, {"run"}).exit_code == 0);
@@ -95,7 +95,7 @@ TEST_CASE(
   CHECK_MESSAGE(kills >= 20, "the campaign is too short to be killed often enough");
   CHECK(campaign(folder, {"run"}).exit_code == 0);
   CHECK(campaign(folder, {"verify"}).exit_code == 0);
-  CHECK(rows(folder) == calm_rows(long_grid));
+  CHECK(rows(folder) == undisturbed_rows(long_grid));
 }
 
 TEST_CASE("interruption: the next run takes the jobs of a dead one at once") {
@@ -120,7 +120,7 @@ TEST_CASE("interruption: SIGINT and SIGTERM stop a run in order, and the same co
   };
   const char* grid =
       R"({"e": 0.9, "n": 0.4, "N": 1000, "seeds": 2, "tau_max": 500, "sample_every": 5})";
-  const std::string expected = calm_rows(grid);
+  const std::string expected = undisturbed_rows(grid);
   for (const Stop stop : {Stop{SIGINT, 130}, Stop{SIGTERM, 143}}) {
     CAPTURE(stop.signal);
     const Folder folder;

@@ -85,7 +85,7 @@ TEST_CASE("run: a larger tau_max goes on from the last checkpoint") {
   const Folder folder;
   run(folder, R"({"e": [0.8, 0.9], "n": 0.4, "N": 500, "seeds": 2, "tau_max": 37})");
   // If this row, before the checkpoint at tau = 30, were computed again, it would not agree.
-  change(folder, "UPDATE samples SET time = time + 1 WHERE tau = 20");
+  edit_unnoticed(folder, "UPDATE samples SET time = time + 1 WHERE tau = 20");
   CHECK(run(folder, grid).exit_code == 0);
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("run: a row that comes out different is damage") {
   const Folder folder;
   run(folder, R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 37})");
   // This row, after the checkpoint at tau = 30, is computed again and compared.
-  change(folder, "UPDATE samples SET time = time + 1 WHERE tau = 35");
+  edit_unnoticed(folder, "UPDATE samples SET time = time + 1 WHERE tau = 35");
   const Outcome outcome =
       run(folder, R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 50})");
   CHECK(outcome.exit_code == 1);
@@ -145,7 +145,8 @@ TEST_CASE("run: a failed job does not keep the others from being run") {
   const Folder folder;
   folder.write("grid.json", grid);
   campaign(folder, {"plan", "grid.json"});
-  change(folder, "UPDATE jobs SET status = 'failed', error = 'for a test' WHERE job_id = 1");
+  edit_unnoticed(folder,
+                 "UPDATE jobs SET status = 'failed', error = 'for a test' WHERE job_id = 1");
   const Outcome outcome = campaign(folder, {"run"});
   CHECK(outcome.exit_code == 1);
   CHECK(outcome.out.find("for a test") != std::string::npos);

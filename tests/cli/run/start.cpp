@@ -181,9 +181,9 @@ TEST_CASE("start: a file that export wrote is in the store from then on") {
   CHECK(shell(folder, "\"$campaign\" plan grid.json").out.find("nothing was added") !=
         std::string::npos);
   // A damaged state is restored from the file.
-  sabotage(folder,
-           "UPDATE checkpoint_chunks SET bytes = zeroblob(length(bytes)) WHERE job_id IN "
-           "(SELECT job_id FROM jobs WHERE start LIKE '%file%' AND kind = 'equilibration')");
+  edit_rows(folder,
+            "UPDATE checkpoint_chunks SET bytes = zeroblob(length(bytes)) WHERE job_id IN "
+            "(SELECT job_id FROM jobs WHERE start LIKE '%file%' AND kind = 'equilibration')");
   CHECK(campaign(folder, {"verify"}).exit_code == 1);
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
   CHECK(campaign(folder, {"verify"}).exit_code == 0);

@@ -51,7 +51,8 @@ TEST_CASE("status: a complete campaign has tau_c beside published values") {
 TEST_CASE("status: a failure is shown with its reason, the blocked jobs, and retry") {
   const Folder folder;
   plan(folder);
-  change(folder, "UPDATE jobs SET status = 'failed', error = 'for a test' WHERE job_id = 1");
+  edit_unnoticed(folder,
+                 "UPDATE jobs SET status = 'failed', error = 'for a test' WHERE job_id = 1");
   const json now = status(folder);
   REQUIRE(now["failures"].size() == 1);
   CHECK(now["failures"][0]["error"] == "for a test");

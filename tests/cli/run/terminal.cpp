@@ -126,8 +126,8 @@ TEST_CASE("terminal: text of a store does not reach the terminal as a command") 
   const std::string columns[] = {"error", "host", "code_version", "created", "started", "finished"};
   for (const std::string& column : columns) {
     CAPTURE(column);
-    change(folder,
-           "UPDATE jobs SET status = 'failed', " + column + " = " + sequence + " WHERE job_id = 2");
+    edit_unnoticed(folder, "UPDATE jobs SET status = 'failed', " + column + " = " + sequence +
+                               " WHERE job_id = 2");
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"status"},
           {"status", "--json"},
@@ -148,10 +148,10 @@ TEST_CASE("terminal: text of a store does not reach the terminal as a command") 
 TEST_CASE("terminal: host and error of a running job are shown without terminal commands") {
   const Folder folder;
   plan(folder, small_grid);
-  change(folder,
-         std::string("UPDATE jobs SET status = 'running', owner_pid = 1, owner_boot_id = ") +
-             sequence + ", owner_started = 1, renewed = " + sequence + ", host = " + sequence +
-             ", error = " + sequence + " WHERE job_id = 1");
+  edit_unnoticed(
+      folder, std::string("UPDATE jobs SET status = 'running', owner_pid = 1, owner_boot_id = ") +
+                  sequence + ", owner_started = 1, renewed = " + sequence + ", host = " + sequence +
+                  ", error = " + sequence + " WHERE job_id = 1");
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"status"}, {"status", "--json"}, {"run", "--max-time", "1s"}}) {
     OnTerminal program(folder, command, 50);

@@ -38,7 +38,7 @@ void check(const std::string& damage) {
   const Folder folder;
   run(folder, short_grid);
   const std::string before = rows(folder);
-  sabotage(folder, damage);
+  edit_rows(folder, damage);
 
   const Outcome verified = campaign(folder, {"verify"});
   CHECK(verified.exit_code == 1);
@@ -80,7 +80,7 @@ TEST_CASE("damage: a checkpoint that is missing a chunk is not used") {
 TEST_CASE("damage: cooling does not start from a damaged equilibration") {
   const Folder folder;
   run(folder, R"({"e": 0.9, "n": 0.4, "N": 500, "seeds": [1, 2], "tau_max": 30})");
-  sabotage(folder, cut_short + " WHERE job_id = " + job("equilibration"));
+  edit_rows(folder, cut_short + " WHERE job_id = " + job("equilibration"));
   plan(folder, short_grid);
   const Outcome outcome = campaign(folder, {"run"});
   CHECK(outcome.exit_code == 1);
@@ -115,7 +115,7 @@ TEST_CASE("damage: no command blames a job or the command line for a damaged fil
 TEST_CASE("damage: verify names a sample that is missing") {
   const Folder folder;
   run(folder, short_grid);
-  sabotage(folder, "DELETE FROM samples WHERE tau = 7 AND job_id = " + job("cooling"));
+  edit_rows(folder, "DELETE FROM samples WHERE tau = 7 AND job_id = " + job("cooling"));
   const Outcome outcome = campaign(folder, {"verify"});
   CHECK(outcome.exit_code == 1);
   CHECK(outcome.out.find("tau = 7 is missing") != std::string::npos);
@@ -124,10 +124,10 @@ TEST_CASE("damage: verify names a sample that is missing") {
 TEST_CASE("damage: verify names an energy that is not that of the checkpoint") {
   const Folder folder;
   run(folder, short_grid);
-  change(folder,
-         "UPDATE samples SET temperature = temperature * 1.000001 WHERE tau = 30 "
-         "AND job_id = " +
-             job("cooling"));
+  edit_unnoticed(folder,
+                 "UPDATE samples SET temperature = temperature * 1.000001 WHERE tau = 30 "
+                 "AND job_id = " +
+                     job("cooling"));
   const Outcome outcome = campaign(folder, {"verify"});
   CHECK(outcome.exit_code == 1);
   CHECK(outcome.out.find("the sample at tau = 30") != std::string::npos);

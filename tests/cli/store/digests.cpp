@@ -64,7 +64,7 @@ TEST_CASE("digests: a changed row is found, named, not averaged, and repaired") 
     const Folder folder;
     run(folder);
     const std::string before = rows(folder);
-    sabotage(folder, sql);
+    edit_rows(folder, sql);
 
     const Outcome verified = campaign(folder, {"verify"});
     CHECK(verified.exit_code == 1);
@@ -104,7 +104,7 @@ TEST_CASE("digests: a changed row enters no average, and is itself shown with a 
     CAPTURE(std::string(one.harm));
     const Folder folder;
     run(folder);
-    sabotage(folder, one.harm);
+    edit_rows(folder, one.harm);
     for (const std::string& sql : one.refused) {
       CAPTURE(sql);
       const Outcome outcome = campaign(folder, {"query", sql});
@@ -137,7 +137,7 @@ TEST_CASE("digests: retry computes a job with changed rows again") {
   const Folder folder;
   run(folder);
   const std::string before = rows(folder);
-  sabotage(folder, harm[0]);
+  edit_rows(folder, harm[0]);
   const Outcome retried = campaign(folder, {"retry"});
   CHECK(retried.exit_code == 0);
   CHECK(holds(retried.out, "job 3 "));
@@ -169,7 +169,7 @@ TEST_CASE("digests: a value that was already wrong when written is found by comp
   const Folder folder;
   run(folder);
   const std::string before = rows(folder);
-  change(folder, "UPDATE samples SET a4 = a4 + 1e-9 WHERE job_id = 4 AND tau = 2");
+  edit_unnoticed(folder, "UPDATE samples SET a4 = a4 + 1e-9 WHERE job_id = 4 AND tau = 2");
   CHECK(campaign(folder, {"verify"}).exit_code == 0);  // the digests match
   const Outcome outcome = campaign(folder, {"verify", "--recompute", "all"});
   CHECK(outcome.exit_code == 1);
@@ -192,7 +192,7 @@ TEST_CASE("digests: a value that was already wrong when written is found by comp
 TEST_CASE("digests: rows of an older program have no digest, and get one") {
   const Folder folder;
   run(folder);
-  change(folder, "SELECT 1");
+  edit_unnoticed(folder, "SELECT 1");
   const Outcome without = campaign(folder, {"verify"});
   CHECK(without.exit_code == 0);
   CHECK(holds(without.out, "4 of its jobs have no digest"));
@@ -206,7 +206,7 @@ TEST_CASE("digests: a flipped bit in a job's parameters is repaired") {
   const Folder folder;
   folder.write("grid.json", grid);
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
-  sabotage(folder, "UPDATE jobs SET tau_max = 3 WHERE job_id = 3");  // one bit from 6
+  edit_rows(folder, "UPDATE jobs SET tau_max = 3 WHERE job_id = 3");  // one bit from 6
   const Outcome outcome = campaign(folder, {"run"});
   CHECK(outcome.exit_code == 1);
   CHECK(number(folder, "SELECT count(*) FROM samples WHERE job_id = 3") == 0);
@@ -237,7 +237,7 @@ TEST_CASE("digests: SQLite's statistics of table sizes are rebuilt") {
   const Folder folder;
   folder.write("grid.json", grid);
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);
-  sabotage(folder, "UPDATE sqlite_stat1 SET stat = '1010' WHERE tbl = 'jobs'");
+  edit_rows(folder, "UPDATE sqlite_stat1 SET stat = '1010' WHERE tbl = 'jobs'");
   const Outcome verified = campaign(folder, {"verify"});
   CHECK(verified.exit_code == 1);
   CHECK(holds(verified.out, "sqlite_stat1"));

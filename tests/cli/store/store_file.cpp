@@ -31,7 +31,7 @@ void wait_for_work(const Folder& folder) {
 }
 
 // Checks a run whose store this command takes away.
-void check_vanished(const std::string& command, const std::string& what) {
+void check_loss_of_store(const std::string& command, const std::string& what) {
   CAPTURE(command);
   const Folder folder;
   plan(folder, grid);
@@ -55,10 +55,10 @@ void check_vanished(const std::string& command, const std::string& what) {
 }  // namespace
 
 TEST_CASE("store file: the loss of the store during a run is noticed, and the store is saved") {
-  check_vanished("rm campaign.db*", "was deleted or moved away");
-  check_vanished("mv campaign.db other.db", "was deleted or moved away");
-  check_vanished("mv old.db campaign.db", "was replaced by another file");
-  check_vanished("cp old.db campaign.db", "was written over by another program");
+  check_loss_of_store("rm campaign.db*", "was deleted or moved away");
+  check_loss_of_store("mv campaign.db other.db", "was deleted or moved away");
+  check_loss_of_store("mv old.db campaign.db", "was replaced by another file");
+  check_loss_of_store("cp old.db campaign.db", "was written over by another program");
 }
 
 TEST_CASE("store file: a backup during a run is sound and can be run") {

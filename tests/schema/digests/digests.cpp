@@ -52,7 +52,7 @@ struct Working {
   }
 };
 
-void vandalize(const std::filesystem::path& path, const std::string& sql) {
+void edit_rows(const std::filesystem::path& path, const std::string& sql) {
   SQLite::Database sqlite(path.string(), SQLite::OPEN_READWRITE);
   sqlite.exec(sql);
 }
@@ -119,7 +119,7 @@ TEST_CASE("digests: a change in any table is seen, and its rows are refused") {
     const Part part = change.second;
     CAPTURE(sql);
     Working working;
-    vandalize(working.path, sql);
+    edit_rows(working.path, sql);
     const Reader reader(working.path);
     CHECK(reader.digests(working.id()).wrong == std::vector{part});
     const auto read = [&] {
@@ -139,7 +139,7 @@ TEST_CASE("digests: a change in any table is seen, and its rows are refused") {
 
 TEST_CASE("digests: small tables have one digest") {
   Working working;
-  vandalize(working.path, "UPDATE campaign SET shard = 'mine'");
+  edit_rows(working.path, "UPDATE campaign SET shard = 'mine'");
   CHECK(Reader(working.path).wrong_tables() == std::vector<std::string>{"campaign"});
   CHECK_THROWS_AS(working.store.become_shard("x", "y"), Damage);
   working.store.digest_table_again("campaign");
@@ -152,7 +152,7 @@ TEST_CASE("digests: a job whose row has changed is not run, and a flipped bit is
   store.add(plan({cooling()}));
   equilibrate(store);
   const std::int64_t job_id = store.find(cooling()).value();
-  vandalize(folder / "a.db", "UPDATE jobs SET tau_max = 45 WHERE kind = 'cooling'");  // was 90
+  edit_rows(folder / "a.db", "UPDATE jobs SET tau_max = 45 WHERE kind = 'cooling'");  // was 90
 
   CHECK_FALSE(store.claim(me, "test"));
   CHECK(store.job(job_id).status == Status::failed);
@@ -189,7 +189,7 @@ TEST_CASE("digests: a merge takes them over, and refuses rows that do not match"
   CHECK(home.store.samples(home.id()).size() == 6);
 
   shard.store.commit(shard.claim.lease, Working::commit(6, 9));
-  vandalize(shard.path, "UPDATE samples SET temperature = 0.25 WHERE tau = 7");
+  edit_rows(shard.path, "UPDATE samples SET temperature = 0.25 WHERE tau = 7");
   CHECK_THROWS_WITH_AS(home.store.take_over(Reader(shard.path), shard.id()),
                        doctest::Contains("its samples are not as they were written"), Damage);
   CHECK(home.store.samples(home.id()).size() == 6);
@@ -199,7 +199,7 @@ TEST_CASE("digests: rows are replaced only where they differ") {
   Working working, sound;
   working.store.commit(working.claim.lease, Working::commit(3, 6));
   sound.store.commit(sound.claim.lease, Working::commit(3, 6));
-  vandalize(working.path,
+  edit_rows(working.path,
             "UPDATE samples SET a2 = 1 WHERE tau = 4; DELETE FROM samples WHERE tau = 5");
   const auto found =
       working.store.differences(working.id(), Part::samples, sound.store, sound.id());

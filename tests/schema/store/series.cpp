@@ -19,7 +19,7 @@ Sample at(double tau, double temperature) {
 }
 
 // Two gases with one equilibration, job 1: e = 0.9 and 0.8, in an order that does not matter.
-Store little_store() {
+Store small_store() {
   Store store = Store::in_memory();
   store.add(plan({cooling(0.8), cooling(0.9)}));
   while (const auto claim = store.claim(me, "test"))
@@ -60,7 +60,7 @@ constexpr const char* by_key = "SEARCH samples USING PRIMARY KEY (job_id=? AND t
 }  // namespace
 
 TEST_CASE("samples and jobs join by job_id alone") {
-  const Store store = little_store();
+  const Store store = small_store();
   CHECK(rows(store,
              "SELECT e, temperature FROM samples JOIN jobs USING (job_id) "
              "WHERE tau = 20 AND kind = 'cooling' ORDER BY e") == "0.80 0.80; 0.90 0.90; ");
@@ -70,7 +70,7 @@ TEST_CASE("samples and jobs join by job_id alone") {
 }
 
 TEST_CASE("the view series has each sample beside its job's parameters") {
-  const Store store = little_store();
+  const Store store = small_store();
   CHECK(rows(store, "SELECT count(*) FROM series") == rows(store, "SELECT count(*) FROM samples"));
   CHECK(rows(store,
              "SELECT e, n, particles, seed, tau, time, temperature FROM series "
@@ -79,7 +79,7 @@ TEST_CASE("the view series has each sample beside its job's parameters") {
 }
 
 TEST_CASE("conditions on samples use their key") {
-  const Store store = little_store();
+  const Store store = small_store();
   CHECK(contains(way_to(store, "SELECT a2 FROM series WHERE e = 0.9 AND tau = 20"), by_key));
   CHECK(contains(way_to(store, "SELECT e, a2 FROM samples JOIN jobs USING (job_id) WHERE tau = 20"),
                  by_key));

@@ -26,7 +26,7 @@ Snapshot snapshot_at(double tau, std::size_t size = 1000) {
           .state = bytes(size, static_cast<unsigned>(tau))};
 }
 
-void vandalize(const std::filesystem::path& path, const std::string& sql) {
+void edit_rows(const std::filesystem::path& path, const std::string& sql) {
   SQLite::Database sqlite(path.string(), SQLite::OPEN_READWRITE);
   sqlite.exec(sql);
 }
@@ -94,12 +94,12 @@ TEST_CASE("damage to a snapshot is found") {
   working.store.commit(working.claim.lease, {.snapshots = {snapshot_at(1)}});
   const auto said = [&] { return refusal([&] { working.store.snapshot(job_id, 2); }); };
 
-  vandalize(path, "UPDATE snapshot_chunks SET bytes = zeroblob(1000)");
+  edit_rows(path, "UPDATE snapshot_chunks SET bytes = zeroblob(1000)");
   CHECK(said().find("the snapshot of job") != std::string::npos);
   CHECK(said().find("do not add up to its checksum") != std::string::npos);
-  vandalize(path, "DELETE FROM snapshot_chunks");
+  edit_rows(path, "DELETE FROM snapshot_chunks");
   CHECK(said().find("it holds 0 bytes of 1000") != std::string::npos);
-  vandalize(path, "UPDATE snapshots SET tau = 3");
+  edit_rows(path, "UPDATE snapshots SET tau = 3");
   CHECK(said().find("its snapshots are not as they were written") != std::string::npos);
   CHECK(working.store.digests(job_id).wrong == std::vector{Part::snapshots});
 }
@@ -147,7 +147,7 @@ TEST_CASE("a snapshot that a second computation found wrong is replaced, with it
   const std::int64_t job_id = here.claim.lease.job_id;
   for (Working* each : {&here, &there})
     each->store.commit(each->claim.lease, {.snapshots = {snapshot_at(1), snapshot_at(2)}});
-  vandalize(folder / "a.db",
+  edit_rows(folder / "a.db",
             "UPDATE snapshot_chunks SET bytes = zeroblob(3) WHERE time = 2;"
             "UPDATE snapshots SET collisions = 7 WHERE time = 4");
   here.store.replace_rows(job_id, Part::snapshots, there.store, job_id);

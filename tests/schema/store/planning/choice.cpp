@@ -14,7 +14,7 @@ using namespace haff::schema;
 namespace {
 
 // Two e and two seeds: equilibrations 1 and 4, cooling jobs 2, 3 (seed 1) and 5, 6 (seed 2).
-Store little_store() {
+Store small_store() {
   Store store = Store::in_memory();
   Job rough = cooling(0.9, 2);
   rough.effects = R"({"roughness":{"beta":0.5,"q":0.4}})";
@@ -28,7 +28,7 @@ std::size_t chosen(const Store& store, const std::string& where) {
 }
 
 std::string complaint(const std::string& where, const std::string& order = {}) {
-  const Store store = little_store();
+  const Store store = small_store();
   try {
     const Choice choice(store, where, order);
   } catch (const QueryError& error) {
@@ -38,7 +38,7 @@ std::string complaint(const std::string& where, const std::string& order = {}) {
 }
 
 Selection selection(const std::string& where, const std::string& order = {}) {
-  Store store = little_store();
+  Store store = small_store();
   const Choice choice(store, where, order);
   return {std::move(store), choice};
 }
@@ -59,7 +59,7 @@ std::string order_of_work(Selection& store) {
 }  // namespace
 
 TEST_CASE("a condition chooses cooling jobs by their columns, by N and by parameters of effects") {
-  const Store store = little_store();
+  const Store store = small_store();
   CHECK(chosen(store, "e = 0.8") == 2);
   CHECK(chosen(store, "e > 0.5") == 4);  // but no equilibration, although its e is 1
   CHECK(chosen(store, "N = 2000") == 1);
@@ -71,7 +71,7 @@ TEST_CASE("a condition chooses cooling jobs by their columns, by N and by parame
 }
 
 TEST_CASE("only a condition that names kind or job_id chooses among equilibrations") {
-  const Store store = little_store();
+  const Store store = small_store();
   CHECK(chosen(store, "kind = 'equilibration'") == 3);
   CHECK(chosen(store, "job_id = 1") == 1);
   CHECK(chosen(store, "seed = 1") == 2);
@@ -133,7 +133,7 @@ TEST_CASE("without a condition, a selection is the whole store") {
 }
 
 TEST_CASE("a condition on seeds or job numbers excludes further realizations") {
-  const Store store = little_store();
+  const Store store = small_store();
   CHECK(Choice(store, "seed < 3").names_realizations());
   CHECK(Choice(store, "e = 0.8 AND job_id < 3").names_realizations());
   CHECK_FALSE(Choice(store, "e = 0.8").names_realizations());
