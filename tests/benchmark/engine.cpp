@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// How fast is the engine? Collisions per second of a gas that has been warmed up.
+// Measures the speed of the engine: collisions per second of a gas that has been warmed up.
 //
 //   engine_benchmark --N 4000 --n 0.4 --e 1 --warmup 20 --tau 20 --json
 //
@@ -33,7 +33,7 @@ std::string state_hash(const engine::Simulation& gas) {
   return text;
 }
 
-// What laws and effects remember, beside what every gas has. Known at a synchronization.
+// The memory of laws and effects, in bytes; known only at a synchronization.
 std::size_t remembered(const engine::Simulation& gas) {
   std::size_t bytes = 0;
   if (gas.synchronized())

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-# Does the benchmark run, and is the trajectory the same whichever search looks for contacts?
+# Checks that the benchmark runs, and that the SIMD and the scalar search give the same trajectory.
 #   cmake -DBENCHMARK=<engine_benchmark> -P hashes.cmake
 cmake_minimum_required(VERSION 3.25)
 

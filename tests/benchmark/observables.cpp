@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What observables cost: CPU time of one sample of each that looks at the whole gas, and what those
-// that follow particles or count collisions add to a collision; a table (Markdown).
+// The cost of observables: the CPU time of one sample of each observable of the whole gas, and the
+// time that is added to a collision by those that follow particles or count collisions; a table
+// (Markdown).
 //
 //   build/release/tests/observables_benchmark [N]
 #include <fmt/format.h>
@@ -27,8 +28,8 @@ using namespace haff::campaign;
 namespace {
 
 constexpr double warm_up = 10;       // [collisions per particle]
-constexpr double long_enough = 0.3;  // of a measurement [s]
-constexpr int repeats = 5;           // the least disturbed of which counts
+constexpr double long_enough = 0.3;  // duration of a measurement [s]
+constexpr int repeats = 5;           // the fastest one counts, which is the least disturbed
 
 schema::Job job_with(std::vector<std::string> observables, std::uint32_t particles) {
   schema::Job job;
@@ -57,7 +58,7 @@ double seconds_of(const Action& action) {
   return least;
 }
 
-// CPU time of a collision of a gas that is followed and counted as the job asks. [s]
+// The CPU time per collision in a gas whose particles and collisions are observed for the job. [s]
 double seconds_per_collision(const schema::Job& job, const engine::State& state) {
   double least = 1e9;
   for (int k = 0; k < repeats; ++k) {
