@@ -29,7 +29,7 @@ TEST_CASE("collision_statistics: no counts give no density, and no bins are refu
   CHECK_THROWS_AS(density_of_free_times(Counts{}, 10, 100), std::invalid_argument);
 }
 
-TEST_CASE("collision_statistics: bins with more whole numbers in them are no denser") {
+TEST_CASE("collision_statistics: bins that hold more whole numbers have no higher density") {
   // One flight of each length k: the density is N/2 over the number of lengths, in every bin. With
   // 7, 33 or 101 particles neighbouring bins hold different numbers of k; with 7 some hold none.
   for (const std::uint32_t particles : {7U, 33U, 101U, 2000U}) {

@@ -28,7 +28,7 @@ double integral(const SpeedDistribution& speeds, int d) {
 
 }  // namespace
 
-TEST_CASE("distribution: integrates to pi^(d/2)") {
+TEST_CASE("distribution: it integrates to pi^(d/2)") {
   Random random(8);
   const auto velocity = thermal_velocities(1000, random);
   for (const int d : {2, 3})

@@ -70,7 +70,8 @@ TEST_CASE("accuracy: intervals of few realizations hold the true value as often 
   }
 }
 
-TEST_CASE("accuracy: so do intervals from the blocks of one correlated series") {
+TEST_CASE(
+    "accuracy: intervals from the blocks of one series hold the true value as often as stated") {
   // x_k = rho x_{k-1} + noise, mean 0, correlation time 4.5 samples.
   constexpr double rho = 0.8;
   constexpr std::size_t length = 2048;
@@ -125,7 +126,7 @@ TEST_CASE("accuracy: the scatter of correlated values falls more slowly") {
                   std::invalid_argument);
 }
 
-TEST_CASE("accuracy: the number of realizations a standard error takes") {
+TEST_CASE("accuracy: the number of realizations for a wanted standard error") {
   CHECK(realizations_needed(2, 0.5) == 16);
   CHECK(realizations_needed(2, 0.49) == 17);
   CHECK(realizations_needed(2, 10) == 2);

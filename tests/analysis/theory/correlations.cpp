@@ -121,7 +121,7 @@ TEST_CASE("correlations: growth starts from its finite limit q^d / d without a s
   }
 }
 
-TEST_CASE("correlations: nothing has built up at tau = 0") {
+TEST_CASE("correlations: they are zero at tau = 0") {
   CHECK(velocity_correlation({.e = 0.8}, 1, 0, Fluid::incompressible).parallel == 0);
   CHECK(correlation_trace({.e = 0.8}, 0) == 0);
 }

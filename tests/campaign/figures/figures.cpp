@@ -74,7 +74,7 @@ TEST_CASE("figures: a single realization is drawn without errors") {
   CHECK(drawn.report.find("standard error") == std::string::npos);
 }
 
-TEST_CASE("figures: only those asked for are drawn") {
+TEST_CASE("figures: only the requested ones are drawn") {
   const TemporaryFolder folder;
   CHECK(draw(first_campaign(), folder.path(), {2}).code == 0);
   CHECK(std::filesystem::exists(folder.path() / "figure-02.svg"));
@@ -96,7 +96,7 @@ TEST_CASE("figures: a requested figure without data is named, with a grid that g
       schema::parse_grid(grid, "the example", {.bytes = 1e12, .bytes_per_particle = 100}));
 }
 
-TEST_CASE("figures: boxes are drawn where they lie on both sides of the critical one") {
+TEST_CASE("figures: boxes are drawn if some are smaller and some larger than the critical one") {
   const TemporaryFolder folder;
   auto store = schema::Store::in_memory();
   add_finished(store, 0.8, 0.4, 300, 2, 300, 10);

@@ -72,7 +72,7 @@ double value_of(const std::vector<schema::Profile>& points, const std::string& n
 
 }  // namespace
 
-TEST_CASE("diffusion: without msd and vacf the gas is not looked at") {
+TEST_CASE("diffusion: without msd and vacf the gas is not observed") {
   const auto plain = job(0.2, 108, {"temperature"});
   Followed followed(plain, start_of(plain));
   CHECK(followed.diffusion.next_look() > engine::collisions_at(1e9, plain.particles));

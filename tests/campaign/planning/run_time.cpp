@@ -47,7 +47,7 @@ TEST_CASE("run time: small jobs fill the processors, one thread each") {
 
 // This takes a tenth of a second. If each start of a job searched all waiting jobs, it would take a
 // minute.
-TEST_CASE("run time: that of a hundred thousand jobs is found at once" * doctest::timeout(10)) {
+TEST_CASE("run time: that of a hundred thousand jobs is computed at once" * doctest::timeout(10)) {
   CHECK(expected_run_time(small_jobs(100'000, 7), 4).seconds == doctest::Approx(175'000));
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("run time: the last large job has all processors") {
   CHECK(expected_run_time(jobs, 4).seconds == doctest::Approx(20 + (100 - 20 * two) / four));
 }
 
-TEST_CASE("run time: one job") {
+TEST_CASE("run time: a single job") {
   CHECK(shortest_time(gas(1000), 12, 8) == 12);
   CHECK(shortest_time(gas(500'000), 12, 2) ==
         doctest::Approx(12 / engine::expected_speed_up(2, 500'000, 0.4)));

@@ -56,7 +56,7 @@ TEST_CASE(
   CHECK(report.grown_tau.value() == Approx(1 / *report.fastest_rate).epsilon(1e-12));
 }
 
-TEST_CASE("box: gases that linear theory does not treat have no report") {
+TEST_CASE("box: gases that linear theory does not cover have no report") {
   schema::Job job = cooling(0.8, 1000);
   job.effects = R"({"shuffle":{"every":1.0}})";
   CHECK_FALSE(box_report(job));

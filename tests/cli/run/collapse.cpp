@@ -19,7 +19,7 @@ std::string grid(const std::string& effects) {
 
 }  // namespace
 
-TEST_CASE("collapse: it ends a job, which keeps its series, and is named, but is not a failure") {
+TEST_CASE("collapse: it ends a job, which keeps its series and does not count as failed") {
   const Folder folder;
   folder.write("grid.json", grid("{}"));
   REQUIRE(campaign(folder, {"plan", "grid.json"}).exit_code == 0);

@@ -89,7 +89,7 @@ TEST_CASE("run: a larger tau_max goes on from the last checkpoint") {
   CHECK(run(folder, grid).exit_code == 0);
 }
 
-TEST_CASE("run: a row that comes out different is damage") {
+TEST_CASE("run: a row that differs when computed again counts as damaged") {
   const Folder folder;
   run(folder, R"({"e": 0.8, "n": 0.4, "N": 500, "seeds": 1, "tau_max": 37})");
   // This row, after the checkpoint at tau = 30, is computed again and compared.

@@ -35,7 +35,7 @@ using Texts = std::vector<Effects>;
 
 }  // namespace
 
-TEST_CASE("effects: no effects and the default law give the same text") {
+TEST_CASE("effects: no effects and the default law have the same text") {
   CHECK(effects("{}") == Texts{"{}"});
   CHECK(effects(R"({"restitution": {"law": "constant"}})") == Texts{"{}"});
 }

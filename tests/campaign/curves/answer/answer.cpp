@@ -90,7 +90,7 @@ TEST_CASE("answer: an expression in columns, against an expression, under a cond
   CHECK(curves(ratio).front().y.front() == Approx(1));
 }
 
-TEST_CASE("answer: a decay rate stands in the middle of its interval, in tau and in time") {
+TEST_CASE("answer: a decay rate is drawn in the middle of its interval, in tau and in time") {
   const auto in_tau = answer(two_gases(), {.y = "gamma_ratio", .where = "e = 0.8"});
   CHECK(curves(in_tau).front().x.front() == 0.5);
   const auto in_time =
