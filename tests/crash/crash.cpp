@@ -198,7 +198,7 @@ class FailingCalls {
                          one.error, result.exit_code, what, result.said);
     };
     if (result.exit_code != 0 && result.exit_code != 1)
-      return named("0 or 1 is expected: 2 is for what the user types");
+      return named("0 or 1 is expected: 2 is for errors of the user");
     if (result.exit_code == 1 && result.said.empty()) return named("says nothing");
     if (contains(result.said, "damaged (") || contains(result.said, "malformed"))
       return named("a sound store is called damaged");
@@ -313,23 +313,24 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   Options options;
   auto* power = app.add_subcommand("power", "Images of the disk after power loss");
-  auto* fail = app.add_subcommand("fail", "A read, write, sync, ... that fails");
-  auto* storm = app.add_subcommand("storm", "Commands at once, killed at any moment");
+  auto* fail = app.add_subcommand("fail", "Calls of read, write, sync, ... that fail");
+  auto* storm = app.add_subcommand("storm", "Many commands at once, killed at any moment");
   auto* clock = app.add_subcommand("clock", "Two runs at once whose clocks differ");
-  fail->add_option("--every", options.every, "Each call of this kind in turn")
+  fail->add_option("--every", options.every, "Let each call of this kind fail in turn")
       ->check(CLI::IsMember({"read", "write", "sync", "truncate", "open", "delete", "allocate"}));
-  fail->add_option("--stride", options.stride, "Every K-th of them alone")
+  fail->add_option("--stride", options.stride, "Only every K-th of these calls")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   for (auto* command : {power, fail, storm}) {
-    command->add_option("--seed", options.seed, "Chooses what happens")->capture_default_str();
+    command->add_option("--seed", options.seed, "Seed of the random choices")
+        ->capture_default_str();
     command
         ->add_option(command == power  ? "--images"
                      : command == fail ? "--cases"
                                        : "--storms",
                      options.count, "How many")
         ->capture_default_str();
-    command->add_option("--only", options.only, "The one of this number");
+    command->add_option("--only", options.only, "Only the one with this number");
   }
   CLI11_PARSE(app, argc, argv);
   if (clock->parsed()) return try_clocks();

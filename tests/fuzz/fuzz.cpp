@@ -235,11 +235,12 @@ void try_checkpoint(Random& random) {
 int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   std::uint64_t rounds = 100;
-  CLI::App app("Random grids, states and checkpoints through the real code");
-  app.add_option("--seed", seed, "of the first round")->capture_default_str();
+  CLI::App app("Tests the real code with random grids, states and checkpoints");
+  app.add_option("--seed", seed, "seed of the first round")->capture_default_str();
   bool grids_only = false;
-  app.add_flag("--grids", grids_only, "Grids alone, 40 a round");
-  app.add_option("--rounds", rounds, "rounds, each with a seed of its own")->capture_default_str();
+  app.add_flag("--grids", grids_only, "only grids, 40 per round");
+  app.add_option("--rounds", rounds, "number of rounds, each with a seed of its own")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
   for (std::uint64_t round = seed; round < seed + rounds; ++round) {
