@@ -21,6 +21,7 @@
 #include <hwy/highway.h>
 
 #include "engine/loop/watchdog.hpp"
+#include "engine/queue/upcoming.hpp"
 #include "engine/search/plain_search.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -131,37 +132,40 @@ class EventLoop {
     gas_.queue.schedule(p);
   }
 
-  // Prefetches what the next events need, in four steps, each of which needs the results of the one
-  // before: the particle and its event; its partner and the bricks around it; the particles in
-  // these bricks and the bricks around the partner; the particles in those. All but the particles
-  // go into the second-level cache. (GCC deletes the call of a lambda that does nothing but
-  // prefetch.)
+  // Prefetches what the next events need, in three steps, each of which needs the results of the
+  // one before: the particle, its partner, and the bricks around it; the particles in these bricks
+  // and the bricks around the partner; the particles in those. (The event itself is in cache: the
+  // queue has just looked at it.) All but the particles go into the second-level cache. (GCC
+  // deletes the call of a lambda that does nothing but prefetch.)
   void prefetch_upcoming() {
-    {
-      const std::uint32_t p = gas_.queue.coming(4 * stride);
+    do {
+      const std::uint32_t p = gas_.queue.look_ahead();
+      if (p == LadderQueue::nothing) return;
+      upcoming_.add(p);
       __builtin_prefetch(gas_.particles.data() + p, 1, 2);
-      __builtin_prefetch(&gas_.queue[p], 1, 2);
-    }
-    if (const Event& event = coming(3 * stride); event.face == Event::contact) {
-      __builtin_prefetch(gas_.particles.data() + event.partner, 1, 2);
-      __builtin_prefetch(&gas_.queue[event.partner], 1, 2);
-      search_.prefetch_bricks_around(event.cell);
-    } else {
-      search_.prefetch_bricks_beyond(event.cell, event.face);
-    }
-    if (const Event& event = coming(2 * stride); event.face == Event::contact) {
-      search_.prefetch_particles_around(event.cell);
-      const Cell partner = gas_.queue[event.partner].cell;
-      if (partner != event.cell) search_.prefetch_bricks_around(partner);
-    } else {
-      search_.prefetch_particles_beyond(event.cell, event.face);
-    }
-    if (!huge_) return;
-    if (const Event& event = coming(stride);
-        event.face == Event::contact && gas_.queue[event.partner].cell != event.cell)
-      search_.prefetch_particles_around(gas_.queue[event.partner].cell);
+      if (const Event& event = gas_.queue[p]; event.face == Event::contact) {
+        __builtin_prefetch(gas_.particles.data() + event.partner, 1, 2);
+        __builtin_prefetch(&gas_.queue[event.partner], 1, 2);
+        search_.prefetch_bricks_around(event.cell);
+      } else {
+        search_.prefetch_bricks_beyond(event.cell, event.face);
+      }
+      if (const Event& event = upcoming(prefetch_stride); event.face == Event::contact) {
+        search_.prefetch_particles_around(event.cell);
+        const Cell partner = gas_.queue[event.partner].cell;
+        if (partner != event.cell) search_.prefetch_bricks_around(partner);
+      } else {
+        search_.prefetch_particles_beyond(event.cell, event.face);
+      }
+      if (!huge_) continue;
+      if (const Event& event = upcoming(2 * prefetch_stride);
+          event.face == Event::contact && gas_.queue[event.partner].cell != event.cell)
+        search_.prefetch_particles_around(gas_.queue[event.partner].cell);
+    } while (!gas_.queue.looks_far());
   }
-  const Event& coming(std::uint32_t places) const { return gas_.queue[gas_.queue.coming(places)]; }
+  const Event& upcoming(std::uint32_t places) const {
+    return gas_.queue[upcoming_.before_newest(places)];
+  }
 
   // The order among events of exactly the same time: crossings, then contacts by their particles'
   // ids.
@@ -173,13 +177,11 @@ class EventLoop {
     return 1 + (std::min(a, b) << 32 | std::max(a, b));
   }
 
-  static constexpr std::uint32_t stride =
-      foresight / 4;  // events between the steps of prefetch_upcoming()
-
   Gas& gas_;
   Physics& physics_;
+  Upcoming upcoming_;
   // Whether the gas exceeds the third-level cache. If not, most of what is near the partner is in
-  // cache anyway, and the fourth step of prefetching costs more than it gains.
+  // cache anyway, and the third step of prefetching costs more than it gains.
   const bool huge_ = gas_.particles.size() > 200000;
   Search search_;
   double now_;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engine/queue/upcoming.hpp"
+
 namespace haff::engine {
 
 // The approximate number of events per unit of time, which sizes the queue: Boltzmann's collision

@@ -42,10 +42,8 @@ struct Gas {
 
 // From this number of particles on, a gas exceeds the second-level cache by so much that the
 // processor alone cannot hide the latency of memory; below, prefetching costs more than it gains (a
-// sixth of the speed at 4000). The queue then knows `foresight` events in order; from 8 to 32 the
-// speed does not depend on this number.
+// sixth of the speed at 4000).
 inline constexpr std::size_t worth_prefetching = 20000;
-inline constexpr std::uint32_t foresight = 12;
 
 // The approximate number of events per unit of time, which sizes the queue. Only the speed depends
 // on it.

@@ -68,7 +68,7 @@ class OnePieceLoop final : public AnyOnePieceLoop,
 
   bool work_queue(std::int64_t collisions, double last) {
     while (this->gas_.clock.collisions < collisions) {
-      this->prefetch_coming(queue_, [](Cell) { return true; });
+      this->prefetch_upcoming(queue_, [](Cell) { return true; });
       const std::uint32_t p = queue_.next([this](std::uint32_t q) { return this->rank(q); });
       if (p == WindowQueue::nothing) return true;
       const Event& event = this->gas_.queue[p];

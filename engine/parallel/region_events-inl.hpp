@@ -159,40 +159,37 @@ class RegionEvents {
   // Prefetches what the next events of a window's queue need, as in the event loop of one thread.
   // Only cells that may be read are looked at.
   template <class MayRead>
-  HWY_INLINE void prefetch_coming(const WindowQueue& queue, const MayRead& may_read) {
-    constexpr std::uint32_t stride = foresight / 4;
+  HWY_INLINE void prefetch_upcoming(WindowQueue& queue, const MayRead& may_read) {
     const Particle* const particles = gas_.particles.data();
-    if (const std::uint32_t p = queue.coming(4 * stride); p != WindowQueue::nothing) {
-      __builtin_prefetch(particles + p, 1, 2);
-      __builtin_prefetch(&gas_.queue[p], 1, 2);
-    }
-    if (const std::uint32_t p = queue.coming(3 * stride); p != WindowQueue::nothing) {
-      const Event& event = gas_.queue[p];
-      if (event.face == Event::contact) {
+    const auto upcoming = [this](std::uint32_t places) -> const Event& {
+      return gas_.queue[upcoming_.before_newest(places)];
+    };
+    do {
+      const std::uint32_t next = queue.look_ahead();
+      if (next == WindowQueue::nothing) return;
+      upcoming_.add(next);
+      __builtin_prefetch(particles + next, 1, 2);
+      if (const Event& event = gas_.queue[next]; event.face == Event::contact) {
         __builtin_prefetch(particles + event.partner, 1, 2);
         __builtin_prefetch(&gas_.queue[event.partner], 1, 2);
         search_.prefetch_bricks_around(event.cell);
       } else {
         search_.prefetch_bricks_beyond(event.cell, event.face);
       }
-    }
-    if (const std::uint32_t p = queue.coming(2 * stride); p != WindowQueue::nothing) {
-      const Event& event = gas_.queue[p];
-      if (!may_read(event.cell)) return;
-      if (event.face == Event::contact) {
-        search_.prefetch_particles_around(event.cell);
-        const Cell there = cell_of_another(event.partner);
-        if (there != event.cell) search_.prefetch_bricks_around(there);
-      } else if (may_read(gas_.bricks.across(event.cell, event.face))) {
-        search_.prefetch_particles_beyond(event.cell, event.face);
+      if (const Event& event = upcoming(prefetch_stride); may_read(event.cell)) {
+        if (event.face == Event::contact) {
+          search_.prefetch_particles_around(event.cell);
+          const Cell there = cell_of_another(event.partner);
+          if (there != event.cell) search_.prefetch_bricks_around(there);
+        } else if (may_read(gas_.bricks.across(event.cell, event.face))) {
+          search_.prefetch_particles_beyond(event.cell, event.face);
+        }
       }
-    }
-    if (const std::uint32_t p = queue.coming(stride); p != WindowQueue::nothing) {
-      const Event& event = gas_.queue[p];
-      if (event.face != Event::contact) return;
-      const Cell there = cell_of_another(event.partner);
-      if (there != event.cell && may_read(there)) search_.prefetch_particles_around(there);
-    }
+      if (const Event& event = upcoming(2 * prefetch_stride); event.face == Event::contact) {
+        const Cell there = cell_of_another(event.partner);
+        if (there != event.cell && may_read(there)) search_.prefetch_particles_around(there);
+      }
+    } while (!queue.looks_far());
   }
 
   // The cell of a particle that another thread may just be moving.
@@ -203,6 +200,7 @@ class RegionEvents {
   Gas& gas_;
   Physics& physics_;
   Search search_;
+  Upcoming upcoming_;
   double now_ = 0;
   Mementos<Physics> mementos_;
 

@@ -181,47 +181,43 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
   // own particles, which are in the slab, and cells next to them. (Those on the other side of the
   // border change as little as those on this side, and so do those in the same brick.)
   HWY_INLINE void prefetch_upcoming() {
-    auto& queue = region_.queue;
     const auto& events = this->gas_.queue;
     const auto* const particles = this->gas_.particles.data();
     auto& search = this->search_;
-    {
-      const std::uint32_t p = queue.coming(4 * stride);
-      __builtin_prefetch(particles + p, 1, 2);
-      __builtin_prefetch(&events[p], 1, 2);
-    }
-    if (const std::uint32_t p = queue.coming(3 * stride); is_own(p)) {
-      const Event& event = events[p];
-      if (event.face == Event::contact) {
+    do {
+      const std::uint32_t next = region_.queue.look_ahead();
+      if (next == LadderQueue::nothing) return;
+      this->upcoming_.add(next);
+      __builtin_prefetch(particles + next, 1, 2);
+      if (const Event& event = events[next]; event.face == Event::contact) {
         __builtin_prefetch(particles + event.partner, 1, 2);
         __builtin_prefetch(&events[event.partner], 1, 2);
         search.prefetch_bricks_around(event.cell);
       } else {
         search.prefetch_bricks_beyond(event.cell, event.face);
       }
-    }
-    if (const std::uint32_t p = queue.coming(2 * stride); is_own(p)) {
-      const Event& event = events[p];
-      if (event.face == Event::contact) {
-        search.prefetch_particles_around(event.cell);
-        if (is_own(event.partner) && events[event.partner].cell != event.cell)
-          search.prefetch_bricks_around(events[event.partner].cell);
-      } else if (workable_.hold(this->gas_.bricks.across(event.cell, event.face))) {
-        search.prefetch_particles_beyond(event.cell, event.face);
+      if (const std::uint32_t p = this->upcoming_.before_newest(prefetch_stride); is_own(p)) {
+        const Event& event = events[p];
+        if (event.face == Event::contact) {
+          search.prefetch_particles_around(event.cell);
+          if (is_own(event.partner) && events[event.partner].cell != event.cell)
+            search.prefetch_bricks_around(events[event.partner].cell);
+        } else if (workable_.hold(this->gas_.bricks.across(event.cell, event.face))) {
+          search.prefetch_particles_beyond(event.cell, event.face);
+        }
       }
-    }
-    if (!huge_) return;
-    if (const std::uint32_t p = queue.coming(stride); is_own(p)) {
-      const Event& event = events[p];
-      if (event.face == Event::contact && is_own(event.partner) &&
-          events[event.partner].cell != event.cell)
-        search.prefetch_particles_around(events[event.partner].cell);
-    }
+      if (!huge_) continue;
+      if (const std::uint32_t p = this->upcoming_.before_newest(2 * prefetch_stride); is_own(p)) {
+        const Event& event = events[p];
+        if (event.face == Event::contact && is_own(event.partner) &&
+            events[event.partner].cell != event.cell)
+          search.prefetch_particles_around(events[event.partner].cell);
+      }
+    } while (!region_.queue.looks_far());
   }
   HWY_INLINE bool is_own(std::uint32_t p) const {
     return this->gas_.queue[p].owner == region_.number;
   }
-  static constexpr std::uint32_t stride = foresight / 4;
 
   Region& region_;
   Region::Done& done_ = region_.in(Phase::slab);

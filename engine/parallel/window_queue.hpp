@@ -13,6 +13,7 @@
 
 #include "engine/queue/event.hpp"
 #include "engine/queue/ladder_queue.hpp"
+#include "engine/queue/upcoming.hpp"
 
 namespace haff::engine {
 
@@ -29,7 +30,7 @@ class WindowQueue {
   void clear() {
     due_.clear();
     added_.clear();
-    head_ = 0;
+    head_ = ahead_ = 0;
   }
   // Takes entries in any order; sort() has to follow.
   void take(std::uint32_t particle) { due_.push_back({events_[particle].time, particle}); }
@@ -71,10 +72,21 @@ class WindowQueue {
     return *least;
   }
 
-  // The particle whose event comes about so many places later; `nothing` if there is none.
-  std::uint32_t coming(std::size_t places) const {
-    return head_ + places < due_.size() ? due_[head_ + places].particle : nothing;
+  // As of LadderQueue, among the entries that were taken at once.
+  std::uint32_t look_ahead() {
+    ahead_ = std::max(ahead_, head_);
+    while (ahead_ < std::min(due_.size(), head_ + 2 * foresight)) {
+      const Entry& entry = due_[ahead_++];
+      const std::size_t later = std::min<std::size_t>(ahead_ + foresight, due_.size() - 1);
+      __builtin_prefetch(events_ + due_[later].particle, 1, 2);
+      if (ahead_ < due_.size() && due_[ahead_].time == entry.time) ++ahead_;
+      if (!outdated(entry)) return entry.particle;
+    }
+    return nothing;
   }
+  bool looks_far() const { return ahead_ >= head_ + foresight; }
+  // The particle whose event is the first of these; `nothing` if there is none.
+  std::uint32_t first_taken() const { return due_.empty() ? nothing : due_.front().particle; }
 
   // Visits all particles that are still waiting.
   template <class Visit>
@@ -99,6 +111,7 @@ class WindowQueue {
   const Event* events_;
   std::vector<Entry> due_;  // in order from head_ on
   std::size_t head_ = 0;
+  std::size_t ahead_ = 0;     // where look_ahead() goes on
   std::vector<Entry> added_;  // a heap
   std::vector<std::uint32_t> tied_;
 };

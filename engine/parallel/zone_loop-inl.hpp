@@ -57,8 +57,9 @@ class alignas(128) ZoneLoop final : public AnyZoneLoop,
     zone_ = region_.zone();
     queue_.clear();
     for (const auto& region : regions) queue_.merge(region->deferred[region_.number]);
+    this->upcoming_ = Upcoming(queue_.first_taken());
     while (!done_.violated) {
-      this->prefetch_coming(queue_, [this](Cell cell) { return zone_.may_work_in(cell); });
+      this->prefetch_upcoming(queue_, [this](Cell cell) { return zone_.may_work_in(cell); });
       const std::uint32_t p = queue_.next([this](std::uint32_t q) { return this->rank(q); });
       if (p == WindowQueue::nothing) break;
       if (!process(p)) done_.violated = true;

@@ -44,7 +44,7 @@ void LadderQueueOf<Members>::restart(double rate, std::uint32_t foresight) {
   slot_ = 0;
   first_window_ = 0;
   due_.assign(2, never_due);
-  head_ = end_ = 0;
+  head_ = end_ = ahead_ = 0;
   lists_.assign(slots() + 1 + windows_ahead(), {});
   chunks_.clear();
   free_chunk_ = none;
@@ -98,6 +98,7 @@ void LadderQueueOf<Members>::add_to_due(double time, std::uint32_t particle) {
   due_[end_] = never_due;
   for (; k > head_ && time < due_[k - 1].time; --k) due_[k] = due_[k - 1];
   due_[k] = {time, particle};
+  if (k < ahead_) ++ahead_;
 }
 
 // Sorts the first `count` entries of found_ and appends them to the due entries.
@@ -133,6 +134,7 @@ bool LadderQueueOf<Members>::open_next_slot() {
   // Moves the entries that are left from earlier slots to the front.
   for (std::size_t k = head_; k < end_; ++k) due_[k - head_] = due_[k];
   end_ -= head_;
+  ahead_ -= std::min(ahead_, head_);
   head_ = 0;
   due_[end_] = due_[end_ + 1] = never_due;
   for (;;) {
@@ -186,27 +188,46 @@ bool LadderQueueOf<Members>::open_next_window() {
   }
 }
 
+// Visits particles whose events are scattered over memory.
+template <class Members>
+template <class Visit>
+void LadderQueueOf<Members>::visit_all(const std::vector<std::uint32_t>& particles,
+                                       const Visit& visit) const {
+  constexpr std::size_t ahead = 32;
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    __builtin_prefetch(&events_[particles[std::min(k + ahead, particles.size() - 1)]], 0, 2);
+    visit(particles[k]);
+  }
+}
+
 template <class Members>
 void LadderQueueOf<Members>::extend() {
   // All windows are used up. Creates the same number again, starting at the earliest waiting event.
   std::vector<std::uint32_t> waiting;
   waiting.swap(beyond_);
   double earliest = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t particle : waiting)
+  std::uint32_t highest = 0;
+  visit_all(waiting, [&](std::uint32_t particle) {
     earliest = std::min(earliest, time_of(particle, never_due.time));
+    highest = std::max(highest, particle);
+  });
   // An outdated entry's particle has an entry elsewhere too; its time may be long past.
   if (const Slot slot = slot_of(earliest); slot > slot_ && slot != no_slot)
     slot_ = slot - in_window(slot);
   first_window_ = window_of(slot_);
   std::fill(lists_.begin() + static_cast<std::ptrdiff_t>(slots()) + 1, lists_.end(), List{});
-  for (const std::uint32_t particle : waiting) {
+  // A particle that has been scheduled several times is taken once. Twice, it would be due twice,
+  // and at the same time, which is a matter for settle_tie(): a quarter of the speed.
+  std::vector<bool> has_come(highest + std::size_t{1});
+  visit_all(waiting, [&](std::uint32_t particle) {
     const Slot slot = slot_of(time_of(particle, never_due.time));
-    if (slot < slot_ || slot == no_slot) continue;  // outdated, or never
+    if (slot < slot_ || slot == no_slot || has_come[particle]) return;  // outdated, never, or again
+    has_come[particle] = true;
     if (const std::size_t list = list_of(window_of(slot)); list < lists_.size())
       append(lists_[list], particle);
     else
       add_beyond(particle);
-  }
+  });
 }
 
 template <class Members>

@@ -29,8 +29,6 @@ TEST_CASE("window queue: the first event first, and of equal times the smallest 
   WindowQueue queue(events.data());
   for (const std::uint32_t p : {0u, 3u, 1u, 2u}) queue.take(p);
   queue.sort();
-  CHECK(queue.coming(3) == 0);
-  CHECK(queue.coming(4) == WindowQueue::nothing);
   queue.add(4);
   queue.add(5);
   for (const std::uint32_t expected : {1u, 3u, 2u, 5u, 0u, 4u}) CHECK(next(queue) == expected);
@@ -52,4 +50,35 @@ TEST_CASE("window queue: an event that has got another time comes then, and only
   CHECK(next(queue) == 2);
   CHECK(next(queue) == 1);
   CHECK(next(queue) == WindowQueue::nothing);
+}
+
+TEST_CASE("window queue: it looks ahead at every event that is to come, once for a contact") {
+  constexpr std::uint32_t particles = 40;
+  std::vector<Event> events(particles);
+  WindowQueue queue(events.data());
+  for (std::uint32_t p = 0; p < particles; ++p) {
+    events[p].time = 1 + p / 2;  // of two, like the partners of a contact
+    queue.take(p);
+  }
+  queue.sort();
+  CHECK(queue.first_taken() < 2);
+  events[4].time = events[5].time = 100;  // their entries are outdated
+  std::vector<std::uint32_t> seen;
+  for (int step = 0; step < 19; ++step) {
+    do {
+      const std::uint32_t p = queue.look_ahead();
+      if (p == WindowQueue::nothing) break;
+      CHECK(events[p].time >= 1 + step);  // not after it has come
+      seen.push_back(p / 2);
+    } while (!queue.looks_far());
+    for (int partner = 0; partner < 2; ++partner) {
+      const std::uint32_t p = next(queue);
+      REQUIRE(p != WindowQueue::nothing);
+      events[p].time = 1000;
+    }
+  }
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t pair = 0; pair < particles / 2; ++pair)
+    if (pair != 2) all.push_back(pair);
+  CHECK(seen == all);
 }

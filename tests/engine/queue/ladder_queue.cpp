@@ -85,3 +85,50 @@ TEST_CASE("a forgotten entry does not come out, and at the end there is nothing 
   for (const std::uint32_t p : {0u, 1u, 2u}) queue.forget(p);
   CHECK(queue.next(by_number) == LadderQueue::nothing);
 }
+
+TEST_CASE("an event beyond all windows comes once, however often its particle was scheduled") {
+  LadderQueue queue(3);
+  queue.restart(3, 2);
+  set(queue, 0, 1);
+  for (const double time : {1e6, 1.1e6, 1.2e6}) set(queue, 1, time);
+  set(queue, 2, 1.3e6);
+  CHECK(queue.next(by_number) == 0);
+  set(queue, 0, never);
+  CHECK(queue.look_ahead() == 1);
+  CHECK(queue.look_ahead() == 2);  // not 1 again
+  CHECK(queue.next(by_number) == 1);
+}
+
+TEST_CASE("the queue looks ahead at every event that is to come, once for a contact") {
+  constexpr std::uint32_t particles = 60;
+  constexpr std::uint32_t entries_ahead = 8;
+  LadderQueue queue(particles);
+  queue.restart(particles, entries_ahead);
+  for (std::uint32_t p = 0; p < particles; ++p) {
+    queue[p].face = Event::contact;
+    queue[p].partner = p ^ 1;
+    set(queue, p, 0.5 + 0.01 * (p / 2));
+  }
+  set(queue, 4, 9);  // their entries are outdated
+  set(queue, 5, 9);
+  std::vector<std::uint32_t> seen;
+  for (std::uint32_t pair = 0; pair < particles / 2; ++pair) {
+    if (pair == 2) continue;
+    const std::uint32_t p = queue.next(by_number);
+    REQUIRE(p / 2 == pair);
+    do {
+      const std::uint32_t coming = queue.look_ahead();
+      if (coming == LadderQueue::nothing) break;
+      seen.push_back(coming / 2);
+    } while (!queue.looks_far());
+    queue.forget(p ^ 1);
+    set(queue, p, never);
+    set(queue, p ^ 1, never);
+  }
+  // Also the first one: it had come, but not its partner's entry.
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t pair = 0; pair < particles / 2; ++pair)
+    if (pair != 2) all.push_back(pair);
+  all.push_back(2);
+  CHECK(seen == all);
+}
