@@ -45,6 +45,7 @@ void LadderQueueOf<Members>::restart(double rate, std::uint32_t foresight) {
   first_window_ = 0;
   due_.assign(2, never_due);
   head_ = end_ = ahead_ = 0;
+  later_chunk_ = none;
   lists_.assign(slots() + 1 + windows_ahead(), {});
   chunks_.clear();
   free_chunk_ = none;
@@ -152,9 +153,29 @@ bool LadderQueueOf<Members>::open_next_slot() {
           count += slot_of(time) == slot_;
         });
     if (count == 0) continue;
+    if (foresight_ > 0) prefetch_later();
     sort_in(count);
     return true;
   }
+}
+
+// Prefetches the events of the next slot; and one more chunk of the next window's list, which is a
+// chain: one chunk tells where the next one is.
+template <class Members>
+void LadderQueueOf<Members>::prefetch_later() {
+  if (const Slot next = in_window(slot_ + 1); next != 0 && lists_[next].chunk != none)
+    for (std::uint32_t k = 0; k < lists_[next].count; ++k)
+      __builtin_prefetch(&events_[chunks_[lists_[next].chunk].particle[k]], 1, 2);
+  if (later_chunk_ != none) prefetch_chunk(chunks_[later_chunk_].next);
+}
+
+template <class Members>
+void LadderQueueOf<Members>::prefetch_chunk(std::uint32_t chunk) {
+  later_chunk_ = chunk;
+  if (chunk == none) return;
+  const Chunk& coming = chunks_[chunk];
+  __builtin_prefetch(&coming.particle, 1, 2);
+  __builtin_prefetch(&coming.next, 1, 2);  // on another line
 }
 
 template <class Members>
@@ -184,6 +205,8 @@ bool LadderQueueOf<Members>::open_next_window() {
       append(lists_[choose(window_of(slot) == window, in_window(slot), slots())], particle);
     }
     empty(lists_[slots()], [](std::uint32_t) {});
+    if (const std::size_t next = list_of(window + 1); foresight_ > 0)
+      prefetch_chunk(next < lists_.size() ? lists_[next].chunk : none);
     return true;
   }
 }

@@ -164,6 +164,8 @@ class LadderQueueOf {
   bool open_next_slot();    // opens the next slot with entries; false if there is none
   bool open_next_window();  // false if no event is left
   void extend();            // creates more windows, for the events beyond the last one
+  void prefetch_later();
+  void prefetch_chunk(std::uint32_t chunk);
   template <class Visit>
   void visit_all(const std::vector<std::uint32_t>& particles, const Visit& visit) const;
   template <class Rank>
@@ -187,6 +189,7 @@ class LadderQueueOf {
   std::vector<List> lists_;  // of the slots, of events that belong to no slot, of the windows
   HugeVector<Chunk> chunks_;
   std::uint32_t free_chunk_ = none;
+  std::uint32_t later_chunk_ = none;   // of the next window, prefetched last
   std::vector<std::uint32_t> opened_;  // particles of the window that is being opened
   std::vector<Entry> found_;           // entries of the slot that is being opened
   std::vector<std::uint32_t> beyond_;  // events after the last window
