@@ -36,5 +36,5 @@ execute_process(
           ${node} --test --test-concurrency=1 ${WORK}/page.mjs
   RESULT_VARIABLE failed)
 if(failed)
-  message(FATAL_ERROR "the page fails in the browser")
+  message(FATAL_ERROR "the page fails in the browser: node ends with ${failed}")
 endif()
