@@ -17,8 +17,8 @@ constexpr std::uint32_t least_cells = 24;
 // What several threads take, such that two are as fast as measured (decisions/several-cores.md), in
 // units of the time of an event on one: an event in a slab and in a zone, and the merging of sums;
 // and the busiest thread's share in units of an even one.
-constexpr double slab_event = 1.06;
-constexpr double zone_event = 2.7;
+constexpr double slab_event = 1.17;
+constexpr double zone_event = 1.4;
 constexpr double imbalance = 1.03;
 constexpr double merging = 0.02;
 // The events in a zone are as many as those in so many layers of cells.

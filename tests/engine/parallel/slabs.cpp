@@ -76,3 +76,11 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("slabs: two threads are expected to be as fast as measured") {
+  // decisions/several-cores.md; its ratios repeat to 5 %.
+  constexpr double repeats_to = 0.05;
+  CHECK(expected_speed_up(2, 100'000, 0.4) == doctest::Approx(1.56).epsilon(repeats_to));
+  CHECK(expected_speed_up(2, 500'000, 0.4) == doctest::Approx(1.58).epsilon(repeats_to));
+  CHECK(expected_speed_up(2, 1'000'000, 0.4) == doctest::Approx(1.57).epsilon(repeats_to));
+}
