@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Disks with SIMD. Compiled once for each SIMD target, like the spheres in spheres_variant.cpp.
+// The variant for disks with SIMD. Compiled once for each SIMD target, like spheres_variant.cpp.
 #include "engine/loop/engine_variant.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -29,7 +29,7 @@ class VariantOf : public PhysicsVariant<Physics> {
   }
 };
 
-// Without SIMD.
+// The variant without SIMD.
 template <class PairGeometry, class Physics>
 std::unique_ptr<EngineVariant> plain(Physics physics, const State& start) {
   return std::make_unique<VariantOf<AnyPlainSearch<PairGeometry>, Physics>>(std::move(physics),

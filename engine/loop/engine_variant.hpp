@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What is chosen once per simulation: how to search, and what a collision does. Each combination is
-// compiled as an event loop of its own; this is their common interface.
+// The choices made once per simulation: the search and the physics of a collision. Each combination
+// is compiled as an event loop of its own; this is their common interface.
 #pragma once
 
 #include <array>
@@ -27,15 +27,15 @@ class EngineVariant {
   virtual void store(State& state) const = 0;
   virtual void scale(int exponent) = 0;
   virtual std::optional<Rotation> rotation() const = 0;
-  // Of a variant that runs on several threads.
+  // Counts of the work of several threads, if the variant has them.
   virtual std::optional<Windows> windows() const { return std::nullopt; }
-  // Of a variant that counts collisions in bins: what it has counted since the last call.
+  // The counts in bins since the last call, if the variant counts collisions.
   virtual std::optional<CollisionCounts> take_collision_counts() = 0;
   virtual std::size_t memory() const = 0;  // bytes, in addition to the gas
 };
 
-// Without SIMD: for boxes in which a particle can meet several images of another one, and for
-// comparison. Throws std::invalid_argument if there is no such restitution model.
+// The variant without SIMD, for boxes in which a particle can meet several images of another one,
+// and for comparison. Throws std::invalid_argument if there is no such restitution model.
 std::unique_ptr<EngineVariant> plain_variant(const Model& model, const State& start);
 
 // Smooth equal spheres, with SIMD. Throws likewise.

@@ -27,7 +27,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-// `prefetching`: fetch into cache what the next events will need (worth_prefetching, gas.hpp).
+// `prefetching`: whether the data of the next events are fetched into cache (worth_prefetching,
+// gas.hpp).
 template <class Search, class Physics, bool prefetching = false>
 class EventLoop {
  public:
@@ -65,8 +66,8 @@ class EventLoop {
     gas_.clock.collisions = collisions_;
   }
 
-  // Finds the first event of every particle, after a synchronization. Of two particles, it is
-  // enough that one finds the other.
+  // Finds the first event of every particle, after a synchronization. It is enough that one of two
+  // particles finds the other.
   void predict_all() {
     for (std::uint32_t p = 0; p < gas_.particles.size(); ++p)
       set_prediction(p, search_.around_higher(p, gas_.queue[p].cell));
@@ -132,7 +133,7 @@ class EventLoop {
     gas_.queue.schedule(p);
   }
 
-  // Prefetches what the next events need, in three steps, each of which needs the results of the
+  // Prefetches the data of the next events, in three steps, each of which needs the results of the
   // one before: the particle, its partner, and the bricks around it; the particles in these bricks
   // and the bricks around the partner; the particles in those. (The event itself is in cache: the
   // queue has just looked at it.) All but the particles go into the second-level cache. (GCC

@@ -37,7 +37,7 @@ struct Gas {
   Events events;
   Team team;              // the threads that work on this gas
   double event_rate = 0;  // per unit of time, approximately, since the last synchronization
-  std::optional<Mixture> mixture;  // for rare questions; collisions know it from the pair geometry
+  std::optional<Mixture> mixture;  // for rare use; collisions know it from the pair geometry
 };
 
 // From this number of particles on, a gas exceeds the second-level cache by so much that the

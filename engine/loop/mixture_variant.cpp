@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Binary mixtures. Compiled once for each SIMD target, for all restitution models together.
+// The variants for binary mixtures. Compiled once for each SIMD target, for all restitution models
+// together.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/loop/mixture_variant.cpp"
 #include <hwy/foreach_target.h>

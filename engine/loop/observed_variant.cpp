@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Gases whose collisions are counted (observed_collision.hpp), of any physics. Compiled once for
+// The variants that count collisions (observed_collision.hpp), for any physics. Compiled once for
 // each SIMD target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/loop/observed_variant.cpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Rough spheres and disks, and mixtures of them. They touch when smooth ones would, so the SIMD
-// search serves them, too: compiled once for each target.
+// The variants for rough spheres and disks, and mixtures of them. They touch when smooth particles
+// would, so the SIMD search serves them, too: compiled once for each target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/loop/rough_variant.cpp"
 #include <hwy/foreach_target.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Smooth equal spheres with SIMD, the base case. Compiled once for each SIMD target; the best one
-// that the processor has is chosen at run time.
+// The variant for smooth equal spheres with SIMD, the base case. Compiled once for each SIMD
+// target; the best one that the processor has is chosen at run time.
 #include "engine/loop/engine_variant.hpp"
 
 #undef HWY_TARGET_INCLUDE

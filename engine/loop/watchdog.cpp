@@ -15,7 +15,7 @@ namespace {
 // A particle that is closer than this to a member of a collapsed group belongs to it. [sigma]
 constexpr double touching = 1e-6;
 
-// The message names at most so many particles.
+// The largest number of particles that the message names.
 constexpr std::size_t most_named = 12;
 
 bool touch(const Gas& gas, const Particle& a, const Particle& b) {
@@ -28,7 +28,7 @@ bool touch(const Gas& gas, const Particle& a, const Particle& b) {
   return dot(pair.r, pair.r) < reach * reach;
 }
 
-// The two particles, and all that touch them directly or through others.
+// The two particles, and all particles that touch them directly or through others.
 std::vector<std::uint32_t> group_around(const Gas& gas, std::uint32_t p, std::uint32_t q) {
   std::vector<std::uint32_t> group{p, q};
   for (std::size_t k = 0; k < group.size() && group.size() < most_named; ++k)

@@ -28,10 +28,11 @@ inline constexpr double slow_approach = 1e-12;
 // collide that often, and no fluid or crystal made here does.
 inline constexpr double stalled_period = 1e-9;
 
-// A slow collision counts if both partners have collided within this fraction of that period.
+// A slow collision counts if both partners have collided within this fraction of the expected
+// period.
 inline constexpr double quick_succession = 1e-6;
 
-// A period that is longer than so many expected ones is given up: particles that have not met by
+// A period that is longer than this many expected ones is given up: particles that have not met by
 // then never will. Within a period, the coldest gas (e = 0) slows down by a factor of some 5; two
 // or three particles, whose energy can vanish in one collision, slow down by much more, and waiting
 // for them costs nothing.
@@ -44,7 +45,7 @@ double expected_period(const Gas& gas);
 // `since` that time. Throws Collapse when there are too many.
 void note_slow_collision(Gas& gas, std::uint32_t p, std::uint32_t q, double since);
 
-// At the end of a period, before the synchronization. Throws Collapse if it took no time.
+// Called at the end of a period, before the synchronization. Throws Collapse if it took no time.
 void must_have_progressed(const Gas& gas, double expected);
 
 }  // namespace haff::engine

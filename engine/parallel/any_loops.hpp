@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The loops over the events of a region, as the parallel loop calls them. The loops themselves are
-// compiled for each physics and each SIMD target; what calls them is compiled once.
+// The interface of the loops over the events of a region. The loops themselves are compiled for
+// each physics and each SIMD target; the parallel loop, which calls them, is compiled once.
 #pragma once
 
 #include <cstdint>
@@ -19,32 +19,32 @@ class UndoableLoop {
  public:
   virtual ~UndoableLoop() = default;
   virtual void begin_window() = 0;
-  // Restores what collisions have changed in this window beside the records of the particles.
+  // Restores the data beside the particles' records that collisions have changed in this window.
   virtual void undo_collisions() = 0;
 };
 
 class AnySlabLoop : public UndoableLoop {
  public:
-  // After a synchronization: finds the first contacts of a part of all particles.
+  // Finds the first contacts of a part of all particles, after a synchronization.
   virtual void predict(std::uint32_t begin, std::uint32_t end) = 0;
-  // Works off the events from `begin` to `end`.
+  // Processes the events from `begin` to `end`.
   virtual void work(double begin, double end) = 0;
 };
 
 class AnyZoneLoop : public UndoableLoop {
  public:
-  // Works off the events that all regions have deferred to this zone, from `begin` to `end`.
+  // Processes the events that all regions have deferred to this zone, from `begin` to `end`.
   virtual void work(const Regions& regions, double begin, double end) = 0;
 };
 
 class AnyOnePieceLoop {
  public:
   virtual ~AnyOnePieceLoop() = default;
-  // Begins a stretch up to `end`; particles whose events come then are taken over, those of others
-  // are sent to their slabs.
+  // Begins a stretch up to `end`. Takes over the particles whose events come until then; the events
+  // of others are sent to their slabs.
   virtual void begin(double end) = 0;
   virtual void take(std::uint32_t p) = 0;
-  // Works off the events in their order, as the event loop of one thread does, until the given
+  // Processes the events in their order, as the event loop of one thread does, until the given
   // total number of collisions. Returns false if the run is over: the number is reached, or the
   // next event is later than `last`.
   virtual bool work(const Regions& regions, std::int64_t collisions, double last) = 0;
@@ -56,7 +56,7 @@ class LoopMaker {
   virtual ~LoopMaker() = default;
   virtual std::unique_ptr<AnySlabLoop> slab_loop(Gas& gas, Region& region) = 0;
   virtual std::unique_ptr<AnyZoneLoop> zone_loop(Gas& gas, Region& region) = 0;
-  // `region`: one that may send particles to all others.
+  // `region`: a region that may send particles to all others.
   virtual std::unique_ptr<AnyOnePieceLoop> one_piece_loop(Gas& gas, Region& region) = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What collisions add to sums, to be added up in the order of time after a window, as one thread
-// does it: the sums then have the same bits.
+// The terms that collisions add to sums. They are added after a window, in the order of time as on
+// one thread, so that the sums have the same bits.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,8 @@ struct CollisionRecord {
   double dissipated[2];  // the second one for rough particles only
 };
 
-// Visits the records of two lists, each in the order of time and rank, in this order. Which of the
-// two lists has the next one is as good as random: there is no branch on it.
+// Visits the records of two lists, each in the order of time and rank, in this order. There is no
+// branch on which of the two lists has the next record, as this is as good as random.
 template <class Visit>
 void visit_in_order(const Tape<CollisionRecord>& one, const Tape<CollisionRecord>& other,
                     const Visit& visit) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What the threads share while they work off a window.
+// The data that the threads share during a window.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ struct Division {
 
   unsigned regions;
   Slabs slabs;
-  // For each layer of cells of each brick, two for a brick: the time of the last event of a
-  // particle in it, rounded, if it is within the reach of a zone.
+  // For each of the two layers of cells of each brick: the rounded time of the last event of a
+  // particle in it, if the layer is within the reach of a zone.
   HugeVector<float> marks;
-  // Where the mark is of this layer (0 or 1) of a brick; bricks are counted.
+  // The index of the mark of this layer (0 or 1) of a brick; bricks are counted.
   static std::size_t mark_of(std::uint32_t brick, std::uint32_t layer) {
     return 2 * std::size_t{brick} + layer;
   }
-  // For each brick, the cells in it that an event which waits for the zones may read, one bit each:
-  // what comes near them has to wait, too.
+  // For each brick, the cells in it that an event that waits for the zones may read, one bit per
+  // cell: events near these cells have to wait, too.
   std::vector<std::uint8_t> frozen;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A stretch of time that one thread works off alone, in the order of all events: a window that had
-// to be undone, and the last few hundred events before a run stops.
+// A stretch of time that one thread processes alone, in the order of all events: a window that had
+// to be undone, or the last few hundred events before a run stops.
 //
 // This file is compiled once for each SIMD target, hence its place in HWY_NAMESPACE.
 #if defined(HAFF_ENGINE_ONE_PIECE_LOOP_INL) == defined(HWY_TARGET_TOGGLE)

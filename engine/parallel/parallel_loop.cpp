@@ -11,13 +11,13 @@
 namespace haff::engine {
 namespace {
 
-// Collisions per particle in a window, to begin with, and at most.
+// Collisions per particle in the first window, and at most in any window.
 constexpr double first_window = 0.003;
 constexpr double longest_window = 0.02;
-// Fewer collisions are not worth a window.
+// A window with fewer collisions would not be worthwhile.
 constexpr double fewest_collisions = 50;
-// A window that has to be repaired is followed by shorter ones, and others by longer ones, so
-// that a few in a thousand have to be.
+// Windows become shorter after one that has to be repaired, and longer after others, so that a few
+// in a thousand have to be repaired.
 constexpr double after_repair = 0.8;
 constexpr double after_success = 1.0004;
 
@@ -40,7 +40,7 @@ ParallelLoop::ParallelLoop(Gas& gas, LoopMaker& loops, const Threads& threads)
   alone_ = loops.one_piece_loop(gas, *regions_[0]);
 }
 
-// Calls the job for every region, each on its thread.
+// Calls the job for every region, each on its own thread.
 template <class Job>
 void ParallelLoop::for_each_region(const Job& job) {
   team_.run([&](unsigned thread) {
@@ -86,7 +86,7 @@ void ParallelLoop::run(std::int64_t collisions, double end) {
 void ParallelLoop::work_until(std::int64_t collisions, double end) {
   while (gas_.clock.collisions < collisions) {
     const auto left = static_cast<double>(collisions - gas_.clock.collisions);
-    // With this margin, a window has more collisions than are left once in 1e9 times.
+    // With this margin, only one window in 1e9 has more collisions than are left.
     const double most = left - 6 * std::sqrt(left);
     const double window = std::max(window_ * static_cast<double>(gas_.particles.size()),
                                    adapts_ ? fewest_collisions : 1);
@@ -108,8 +108,8 @@ std::size_t ParallelLoop::memory() const {
   return bytes;
 }
 
-// The slabs for the period to come. The work in a layer of cells is the number of its particles
-// that soon have an event.
+// Divides the box into slabs for the next period. The work in a layer of cells is the number of its
+// particles that soon have an event.
 void ParallelLoop::divide() {
   const double soon = 0.02 * expected_period(gas_);
   team_.run([&](unsigned thread) {
@@ -140,7 +140,7 @@ bool ParallelLoop::work_window(double end, std::int64_t collisions, double last)
       regions_[k]->take_mail(regions_);
       slabs_[k]->work(begin, end);
     }
-    add_pending();  // by the first thread that comes here: it has to wait anyway
+    add_pending();  // by the first thread that gets here, which has to wait anyway
     team_.wait_for_all();
     if (is_violated_in(Phase::slab)) return;
     for (unsigned k = thread; k < division_.regions; k += team_.size()) {
@@ -169,7 +169,7 @@ bool ParallelLoop::work_window(double end, std::int64_t collisions, double last)
 bool ParallelLoop::work_in_one_piece(double end, std::int64_t collisions, double last) {
   const double begin = gas_.clock.now;
   const std::int64_t before = gas_.clock.collisions;
-  add_pending();  // before the collisions that come now
+  add_pending();  // before the collisions that follow
   const bool goes_on = alone_->work(regions_, collisions, last);
   const auto done = static_cast<double>(gas_.clock.collisions - before);
   windows_.in_one_piece += gas_.clock.collisions - before;
@@ -203,8 +203,7 @@ bool ParallelLoop::is_violated_in(Phase phase) const {
                      [phase](const auto& region) { return region->in(phase).violated; });
 }
 
-// Takes back all that happened in the window, which ends at `end`, and gives its events to one
-// thread.
+// Undoes the whole window, which ends at `end`, and gives its events to one thread.
 void ParallelLoop::undo(double end) {
   for (const auto& zone : zones_) zone->undo_collisions();
   for (const auto& slab : slabs_) slab->undo_collisions();
@@ -247,7 +246,7 @@ void ParallelLoop::count_events() {
   }
 }
 
-// What the window has changed beside the particles.
+// Keeps the changes of the window beside the particles.
 void ParallelLoop::keep() {
   count_events();
   for (const auto& region : regions_)
@@ -258,8 +257,8 @@ void ParallelLoop::keep() {
   is_pending_.store(true, std::memory_order_relaxed);
 }
 
-// Adds to the sums what the last window has left. One thread does it, while others may work off the
-// next window.
+// Adds the terms that the last window has left to the sums. One thread does this, while others may
+// already work on the next window.
 void ParallelLoop::add_pending() {
   if (!is_pending_.exchange(false, std::memory_order_relaxed)) return;
   Tally tally = gas_.clock.tally;
@@ -271,8 +270,8 @@ void ParallelLoop::add_pending() {
   gas_.clock.tally = tally;
 }
 
-// Merges the lists of collisions, two by two and all pairs at once, until two are left: that of
-// the first region, and that of the region which is returned.
+// Merges the lists of collisions, in pairs and all pairs at once, until two are left: that of the
+// first region, and that of the region that is returned.
 unsigned ParallelLoop::merge_into_two() {
   unsigned step = 1;
   for (; 2 * step < division_.regions; step *= 2)

@@ -2,14 +2,14 @@
 
 // The event loop of several threads: the same events, and the same bits, as that of one.
 //
-// Time is cut into windows, in each of which one event in a few hundred happens to a particle. In a
-// window, every thread works off the events inside its slab of the box (slab_loop-inl.hpp), then
+// Time is cut into windows, in each of which one particle in a few hundred has an event. In a
+// window, every thread processes the events inside its slab of the box (slab_loop-inl.hpp), then
 // those around the border below it (zone_loop-inl.hpp). If two events were processed in the wrong
-// order, the window is undone and worked off in one piece (one_piece_loop-inl.hpp).
+// order, the window is undone and processed in one piece (one_piece_loop-inl.hpp).
 //
-// What collisions add to sums is added up while the next window is worked off, in the order of
-// time, as one thread does it. A run stops at an exact number of collisions: the last few hundred
-// events before it are worked off in one piece.
+// The terms of collisions are added to sums during the next window, in the order of time, as on one
+// thread. A run stops at an exact number of collisions: the last few hundred events before the stop
+// are processed in one piece.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ class ParallelLoop {
 
   // Finds the first event of every particle, after a synchronization.
   void predict_all();
-  // As EventLoop::run().
+  // Runs as EventLoop::run() does.
   void run(std::int64_t collisions, double end);
 
   const Windows& windows() const { return windows_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Mixtures on several threads. Compiled once for each SIMD target.
+// The variants for mixtures on several threads. Compiled once for each SIMD target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/parallel/parallel_mixture.cpp"
 #include <hwy/foreach_target.h>

@@ -22,7 +22,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-// `SlabSearch`: the search of slabs and zones; the other one is for the rare stretches in one
+// `SlabSearch` is the search of slabs and zones; `Search` is used in the rare stretches in one
 // piece.
 template <class Physics, class Search, class SlabSearch = Search>
 class ParallelVariantOf : public PhysicsVariant<Physics>, public LoopMaker {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A thread's share of a gas: the events of the particles in its slab, and what it has done within
-// the present window.
+// A thread's share of a gas: the events of the particles in its slab, and its work in the present
+// window.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ inline constexpr std::size_t phases = 2;
 // (Aligned, like the loops of a region, to two cache lines, which the processor fetches together:
 // no thread writes to one that another reads.)
 struct alignas(128) Region {
-  // What happened in one phase.
+  // The work of one phase.
   struct Done {
     UndoLog log;
     Tape<CollisionRecord> collisions;  // in the order of time

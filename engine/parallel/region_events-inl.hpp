@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What an event does, to the particles and to those that come after it: as in the event loop of one
-// thread (event_loop-inl.hpp), but every loop decides for itself what it notes on the way and where
-// the next event of a particle is kept.
+// The effects of an event on the particles and on later events, as in the event loop of one thread
+// (event_loop-inl.hpp). Every loop decides for itself what it records on the way, and where it
+// keeps the next event of a particle.
 //
 // This file is compiled once for each SIMD target, hence its place in HWY_NAMESPACE.
 #if defined(HAFF_ENGINE_REGION_EVENTS_INL) == defined(HWY_TARGET_TOGGLE)
@@ -25,7 +25,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace haff::engine::HWY_NAMESPACE {
 
-// What collisions have changed in a window beside the records of the particles.
+// The data beside the particles' records that collisions have changed in a window.
 template <class Physics>
 class Mementos {
   using Memento = typename Physics::Memento;
@@ -44,10 +44,10 @@ class Mementos {
 };
 
 // `Loop` derives from this and has
-//   void keep(p)        keeps the event of p as it is, before it changes;
-//   void meet(p, q)     keeps what is known of two particles, and lets them collide;
-//   void touch(cell)    notes that something changes in a cell;
-//   void put(p)         stores that p has its next event at gas.queue[p].time;
+//   void keep(p)        saves the event of p before it changes;
+//   void meet(p, q)     saves the events and records of two particles, and lets them collide;
+//   void touch(cell)    records a change in a cell;
+//   void put(p)         stores the next event of p, which is at gas.queue[p].time;
 //   Events& counts()    counts events.
 template <class Loop, class Search, class Physics>
 class RegionEvents {
@@ -75,7 +75,7 @@ class RegionEvents {
     loop().touch(to);
     std::atomic_ref(event.cell.packed).store(to.packed, std::memory_order_relaxed);
     const Contact contact = search_.beyond(p, to, event.face, now_);
-    // If there is none, its partner may be another thread's.
+    // Without a contact, the partner may belong to another thread.
     const std::uint32_t partner = choose(contact.time < never, contact.partner, p);
     const Contact known{event.contact_time, event.partner};
     const std::uint32_t changes = gas_.particles[partner].changes;
@@ -104,7 +104,7 @@ class RegionEvents {
     return 1 + (std::uint64_t{std::min(a.id, b.id)} << 32 | std::max(a.id, b.id));
   }
 
-  // A collision within a window that may have to be undone.
+  // Processes a collision within a window that may have to be undone.
   HWY_INLINE void meet_for_now(std::uint32_t p, std::uint32_t q, Region::Done& done,
                                double& closest2) {
     Particle& a = gas_.particles[p];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The first phase of a window: every thread works off the events inside its slab, in their order.
+// The first phase of a window: every thread processes the events inside its slab, in their order.
 //
-// An event that needs something outside of the slab is deferred to the zone around that border, and
-// the cells around it are frozen until then, because the event may change what is there: so an
-// event that comes near a frozen cell is deferred, too.
+// An event that needs a cell outside the slab is deferred to the zone around that border. The event
+// may change the cells around it, so these are frozen until then: an event near a frozen cell is
+// deferred, too.
 //
 // This file is compiled once for each SIMD target, hence its place in HWY_NAMESPACE.
 #if defined(HAFF_ENGINE_SLAB_LOOP_INL) == defined(HWY_TARGET_TOGGLE)
@@ -45,7 +45,7 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
     is_beginning_ = false;
   }
 
-  // An exception is a matter for the loop of one thread.
+  // An exception is left to the loop of one thread.
   void work(double begin, double end) override try {
     this->now_ = begin;
     slab_ = region_.slab();
@@ -93,8 +93,9 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
   HWY_INLINE void try_to_collide(std::uint32_t p, std::uint32_t q) {
     const Event& event = this->gas_.queue[p];
     is_far_ = far_.hold(event.cell);
-    // A partner in another slab cannot be where the contact was expected if that was far from the
-    // border: it has collided. If it was near, what is around it in this slab has to wait anyway.
+    // If the contact was expected far from the border, a partner in another slab cannot be there:
+    // it has collided. If the contact was near the border, the events around it in this slab have
+    // to wait anyway.
     if (HWY_LIKELY(is_own(q)) && this->gas_.particles[q].changes == event.partner_changes) {
       const Cell there = this->gas_.queue[q].cell;
       if (HWY_UNLIKELY(!is_far_ && !(may_touch(event.cell) && may_touch(there))))
@@ -106,8 +107,8 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
     }
   }
 
-  // Whether something in this cell may change now. Nothing is frozen farther inside the slab than
-  // `reach_` says, which is not far.
+  // Whether this cell may change now. Farther inside the slab than `reach_`, which is not far, no
+  // cell is frozen.
   HWY_INLINE bool may_touch(Cell cell) const {
     return HWY_LIKELY(untouched_.hold(cell)) || (workable_.hold(cell) && !is_frozen(cell));
   }
@@ -130,7 +131,7 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
     region_.deferred[division_.slabs.zone_of(here)].push_back({this->now_, p});
   }
 
-  // Freezes the cells around a cell, those in the own slab.
+  // Freezes the cells around a cell that are in the own slab.
   void freeze(Cell cell) {
     const bool own = slab_.holds_brick_of(cell);
     const bool next = slab_.holds_brick_next_to(cell);
@@ -144,9 +145,9 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
     // not.
     if (const std::uint32_t reach = slab_.depth(cell) + 3; reach > reach_) set_reach(reach);
   }
-  // Cells with so many layers or more between them and the border have nothing frozen near them.
-  // Those one layer more than that inside, and out of the reach of zones with all that is next to
-  // them, need no further look.
+  // Cells with at least this many layers between them and the border have no frozen cell near them.
+  // Cells one layer farther inside, which with their neighbours are out of the reach of zones, need
+  // no further check.
   void set_reach(std::uint32_t layers) {
     reach_ = layers;
     untouched_ = slab_.inside(layers);
@@ -158,7 +159,7 @@ class alignas(128) SlabLoop final : public AnySlabLoop,
     frozen_.clear();
   }
 
-  // ---- what an event leaves behind ------------------------------------------------------------
+  // ---- the marks of an event ------------------------------------------------------------------
 
   Events& counts() { return done_.events; }
   HWY_INLINE void keep(std::uint32_t p) { done_.log.save(p, this->gas_.queue[p]); }

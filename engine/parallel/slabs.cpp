@@ -10,22 +10,22 @@
 namespace haff::engine {
 namespace {
 
-// Of a thread that makes a gas faster (threads.hpp).
+// The fewest particles for a thread that makes a gas faster (threads.hpp).
 constexpr std::uint32_t least_particles = 50'000;
 constexpr std::uint32_t least_cells = 24;
 
-// What several threads take, such that two are as fast as measured (decisions/several-cores.md), in
-// units of the time of an event on one: an event in a slab and in a zone, and the merging of sums;
-// and the busiest thread's share in units of an even one.
+// The times on several threads, such that two are as fast as measured (decisions/several-cores.md),
+// in units of the time of an event on one thread: for an event in a slab and in a zone, and for the
+// merging of sums; and the busiest thread's share in units of an even share.
 constexpr double slab_event = 1.17;
 constexpr double zone_event = 1.4;
 constexpr double imbalance = 1.03;
 constexpr double merging = 0.02;
-// The events in a zone are as many as those in so many layers of cells.
+// A zone has as many events as this many layers of cells.
 constexpr double zone_layers = 4.7;
 
-// Cells on either side of a border that belong to its zone, if the slabs have room for them. What
-// has to wait at a border spreads by less than a cell within a window.
+// The layers of cells on either side of a border that belong to its zone, if the slabs have room
+// for them. Within a window, the events that have to wait at a border spread by less than a cell.
 constexpr std::uint32_t widest_zone = 14;
 
 }  // namespace
@@ -64,7 +64,7 @@ void Slabs::divide(const Bricks& bricks, std::span<const std::uint32_t> work, un
     auto layer = static_cast<std::uint32_t>(std::lower_bound(below.begin(), below.end(), share) -
                                             below.begin());
     if (layer > 0 && share - below[layer - 1] < below[layer] - share) --layer;
-    // Room for the slabs before and after.
+    // This leaves room for the slabs before and after.
     first.push_back(std::clamp(layer, k == 0 ? 0 : first.back() + fewest_cells,
                                cells - (slabs - k) * fewest_cells));
   }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// How the box is divided among threads: slabs of whole layers of cells, and zones around the
+// The division of the box among threads: slabs of whole layers of cells, and zones around the
 // borders between them.
 //
 // An event reads the cells next to those of its particles and changes only these. In a slab, events
 // are processed from the third layer of cells on, counted from the border: an event at the border,
 // in another slab or in this one, then reads no cell that an event in the slab changes at the same
-// time; nor do the two share a brick, wherever the border cuts one in two. What is left are the
-// zones: an event belongs to one as long as it reads no cell that is
-// farther from the border than `zone_cells`. Deeper inside a slab nothing can be disturbed by a
-// zone, and no event has to leave a mark there (region.hpp).
+// time; nor do the two share a brick, wherever the border cuts one in two. The rest are the
+// zones: an event belongs to a zone as long as it reads no cell that is farther from the border
+// than `zone_cells`. Deeper inside a slab a zone cannot disturb anything, and events leave no marks
+// there (region.hpp).
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ class Layers {
 class Slab {
  public:
   Slab() = default;
-  // `zone_cells`: of the zones at both of its borders.
+  // `zone_cells`: the depth of the zones at both of its borders.
   Slab(const Bricks& bricks, std::uint32_t first_cell, std::uint32_t cells,
        std::uint32_t zone_cells)
       : bricks_(&bricks), own_(bricks, first_cell, cells), zone_(zone_cells) {}
@@ -55,8 +55,8 @@ class Slab {
   Layers deep() const { return inside(zone_); }
   // The cells whose particles cannot have their events in a zone.
   Layers beyond_zones() const { return inside(zone_ - 1); }
-  // The cells with so many layers of cells of the slab, or more, on either side between them and
-  // the border.
+  // The cells with at least this many layers of the slab between them and the border on either
+  // side.
   Layers inside(std::uint32_t layers) const {
     const std::uint32_t outside = std::min(2 * layers, own_.count());
     return {*bricks_, own_.first() + layers, own_.count() - outside};
@@ -69,8 +69,8 @@ class Slab {
 
   std::uint32_t zone_cells() const { return zone_; }
 
-  // Whether the brick of a cell is in the slab, with both of its layers of cells, and whether the
-  // next brick is that has neighbours of the cell.
+  // Whether the brick of a cell is in the slab, with both of its layers of cells; and the same for
+  // the next brick with neighbours of the cell.
   bool holds_brick_of(Cell cell) const { return holds_brick(own_.of(cell) & ~1u); }
   bool holds_brick_next_to(Cell cell) const {
     const std::uint32_t layer = own_.of(cell);
@@ -116,13 +116,13 @@ class Zone {
 
 class Slabs {
  public:
-  // Fewer layers of cells do not make a slab.
+  // The fewest layers of cells in a slab.
   static constexpr std::uint32_t fewest_cells = 8;
   // The number of slabs that fit, at most `wanted`.
   static unsigned most(const Bricks& bricks, unsigned wanted);
 
-  // Divides the box so that every slab has about the same share of the work, which `work` gives for
-  // each layer of cells.
+  // Divides the box so that every slab has about the same share of the work. `work` is that of each
+  // layer of cells.
   void divide(const Bricks& bricks, std::span<const std::uint32_t> work, unsigned slabs);
 
   const Slab& slab(unsigned k) const { return slabs_[k]; }

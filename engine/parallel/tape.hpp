@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A list that is emptied and filled again and again. Adding to it is a store and a comparison; that
-// of std::vector is a call, which takes 2 % of the time of a window.
+// A list that is emptied and filled again and again. Adding an item takes a store and a comparison;
+// with std::vector it is a call, which takes 2 % of the time of a window.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@ namespace haff::engine {
 template <class T>
 class Tape {
  public:
-  // Room for so many more items, to be written at once.
+  // Makes room for this many more items, to be written at once.
   [[gnu::always_inline]] T* add(std::size_t items) {
     if (count_ + items > room_.size()) [[unlikely]]
       grow(items);
     T* const place = room_.data() + count_;
     count_ += items;
-    __builtin_prefetch(place + ahead, 1, 3);  // what is written waits for the cache otherwise
+    __builtin_prefetch(place + ahead, 1, 3);  // otherwise stores would wait for the cache
     return place;
   }
   void clear() { count_ = 0; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The records and events before a thread changed them within a window, to undo it.
+// The records and events as they were before a thread changed them in a window, to undo the window.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ class UndoLog {
     events_.clear();
     records_.clear();
   }
-  // An event that is about to change.
+  // Saves an event that is about to change.
   [[gnu::always_inline]] void save(std::uint32_t particle, const Event& event) {
     *events_.add(1) = {event, particle, 0};
   }
-  // The events and records of two particles that are about to collide.
+  // Saves the events and records of two particles that are about to collide.
   [[gnu::always_inline]] void save(std::uint32_t p, const Event& event_of_p, const Particle& a,
                                    std::uint32_t q, const Event& event_of_q, const Particle& b) {
     Saved* const event = events_.add(2);
@@ -32,7 +32,7 @@ class UndoLog {
     record[1] = b;
   }
 
-  // Calls these with everything that was saved, the latest first.
+  // Calls these functions with everything that was saved, the latest first.
   template <class RestoreEvent, class RestoreRecord>
   void undo(const RestoreEvent& event, const RestoreRecord& record) const {
     const Particle* of_it = records_.end();
@@ -54,7 +54,7 @@ class UndoLog {
   struct Saved {
     Event before;
     std::uint32_t particle;
-    std::uint32_t records;  // that were saved with it, too: 0 or 1
+    std::uint32_t records;  // the number of records saved with it: 0 or 1
   };
   Tape<Saved> events_;
   Tape<Particle> records_;

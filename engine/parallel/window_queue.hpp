@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // The events of one window that a thread takes over at once: those that wait at a border, or all of
-// them. Few more are added on the way, because few of the events that follow come in the same
-// window.
+// them. Few more are added on the way, because few of the following events are in the same window.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +34,7 @@ class WindowQueue {
   // Takes entries in any order; sort() has to follow.
   void take(std::uint32_t particle) { due_.push_back({events_[particle].time, particle}); }
   void sort() { std::sort(due_.begin(), due_.end(), sooner); }
-  // Takes entries in the order of time, in addition to others that were taken so.
+  // Takes entries in the order of time, in addition to others that were taken in this way.
   void merge(const std::vector<Entry>& entries) {
     const auto middle = static_cast<std::ptrdiff_t>(due_.size());
     due_.insert(due_.end(), entries.begin(), entries.end());
@@ -56,7 +55,7 @@ class WindowQueue {
     const double time = std::min(head_ < due_.size() ? due_[head_].time : never_due,
                                  added_.empty() ? never_due : added_.front().time);
     if (time == never_due) return nothing;
-    // All entries of this time, to find the one with the smallest rank.
+    // Collects all entries of this time, to find the one with the smallest rank.
     tied_.clear();
     for (; head_ < due_.size() && due_[head_].time == time; ++head_)
       if (!outdated(due_[head_])) tied_.push_back(due_[head_].particle);
@@ -72,7 +71,7 @@ class WindowQueue {
     return *least;
   }
 
-  // As of LadderQueue, among the entries that were taken at once.
+  // As in LadderQueue, among the entries that were taken at once.
   std::uint32_t look_ahead() {
     ahead_ = std::max(ahead_, head_);
     while (ahead_ < std::min(due_.size(), head_ + 2 * foresight)) {
@@ -85,7 +84,7 @@ class WindowQueue {
     return nothing;
   }
   bool looks_far() const { return ahead_ >= head_ + foresight; }
-  // The particle whose event is the first of these; `nothing` if there is none.
+  // The particle whose event is the first of these entries; `nothing` if there is none.
   std::uint32_t first_taken() const { return due_.empty() ? nothing : due_.front().particle; }
 
   // Visits all particles that are still waiting.

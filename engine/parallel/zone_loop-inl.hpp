@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The second phase of a window: every thread works off the events that were deferred to the zone
+// The second phase of a window: every thread processes the events that were deferred to the zone
 // around the border below its slab.
 //
 // Why the result does not depend on the division. Suppose that an event X, which is earlier than an
@@ -9,14 +9,14 @@
 // a slab. If neither reads a cell in which the other one changes something, the order of the two is
 // immaterial. If one does, then a cell of a particle of Y is next to (or the same as) a cell of a
 // particle of X, since an event reads the cells next to those of its particles and changes only
-// these. It is not deep inside the slab, since X reads nothing there; so Y has left its time as a
+// these. That cell is not deep inside the slab, where X does not read; so Y has left its time as a
 // mark on its layer of its brick, and X finds this mark, which is later than its own time, in the
-// layers of bricks that it reads. This is always noticed: the window is undone and worked off in
-// one piece.
+// layers of bricks that it reads. So such a case is always noticed: the window is undone and
+// processed in one piece.
 //
-// An event also asks whether its partner has collided. If the partner is not in a cell next to that
-// of the event's particle, it has; and if the collision came later than the event, the partner has
-// left that neighbourhood since, and there is a mark where it did.
+// An event also checks whether its partner has collided. If the partner is not in a cell next to
+// that of the event's particle, it has collided; and if this collision was later than the event,
+// the partner has left that neighbourhood since, and has left a mark there.
 //
 // This file is compiled once for each SIMD target, hence its place in HWY_NAMESPACE.
 #if defined(HAFF_ENGINE_ZONE_LOOP_INL) == defined(HWY_TARGET_TOGGLE)
@@ -50,7 +50,7 @@ class alignas(128) ZoneLoop final : public AnyZoneLoop,
   void begin_window() override { this->mementos_.clear(); }
   void undo_collisions() override { this->mementos_.restore(this->physics_); }
 
-  // An exception is a matter for the loop of one thread.
+  // An exception is left to the loop of one thread.
   void work(const Regions& regions, double begin, double end) override try {
     this->now_ = begin;
     end_ = end;
@@ -69,7 +69,7 @@ class alignas(128) ZoneLoop final : public AnyZoneLoop,
   }
 
  private:
-  // Returns false if that may not be done now.
+  // Returns false if the event may not be processed now.
   bool process(std::uint32_t p) {
     const Event& event = this->gas_.queue[p];
     if (event.time < this->now_ || !may_touch(event.cell, event.time)) return false;
@@ -79,8 +79,8 @@ class alignas(128) ZoneLoop final : public AnyZoneLoop,
       this->cross(p);
       return true;
     }
-    // Another zone may just be moving the partner; then its cell, before and after, belongs to that
-    // zone.
+    // Another zone may be moving the partner at this moment; then its cell, before and after,
+    // belongs to that zone.
     const std::uint32_t q = event.partner;
     const Cell there = this->cell_of_another(q);
     if (this->gas_.bricks.are_neighbours(event.cell, there) &&
@@ -95,7 +95,7 @@ class alignas(128) ZoneLoop final : public AnyZoneLoop,
 
   bool may_touch(Cell cell, double time) const {
     if (!zone_.may_work_in(cell)) return false;
-    // The layer of bricks of the cell has the layer of the cell and one next to it; of the next
+    // The layer of bricks of the cell has the layer of the cell and one next to it; in the next
     // layer of bricks, one layer of cells is next to the cell.
     const std::uint32_t near = 1 - cell[this->gas_.bricks.last_axis()] % 2;
     float latest = never_marked;
@@ -103,15 +103,16 @@ class alignas(128) ZoneLoop final : public AnyZoneLoop,
       const float* const marks = &division_.marks[Division::mark_of(brick, 0)];
       latest = std::max(latest, in_next_layer ? marks[near] : std::max(marks[0], marks[1]));
     });
-    // Rounding a time keeps the order; so a mark that is rounded to the same number may be later.
+    // Rounding keeps the order of times, but a mark that is rounded to the same number may be
+    // later.
     return latest < static_cast<float>(time);
   }
 
-  // ---- what an event leaves behind ------------------------------------------------------------
+  // ---- the marks of an event ------------------------------------------------------------------
 
   Events& counts() { return done_.events; }
   void keep(std::uint32_t p) { done_.log.save(p, this->gas_.queue[p]); }
-  void touch(Cell) {}  // what comes later in this zone comes later in time
+  void touch(Cell) {}  // events in this zone are processed in the order of time
   void meet(std::uint32_t p, std::uint32_t q) { this->meet_for_now(p, q, done_, region_.closest2); }
   void put(std::uint32_t p) {
     if (this->gas_.queue[p].time < end_)

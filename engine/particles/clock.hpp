@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The position of a trajectory in time and collisions, and what it has counted so far.
+// The position of a trajectory in time and collisions, and its counters so far.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@ struct Clock {
   double start = 0;  // true time of the last synchronization
   int exponent = 0;  // true velocity = velocity * 2^-exponent, true time = now * 2^exponent
   Tally tally;       // since then, or since it was last taken; in scaled units
-  Tally before;      // what had not been taken by the last synchronization
+  Tally before;      // the part that had not been taken by the last synchronization
   Invariants invariants;
   double energy = 0;  // kinetic, per particle, at the last synchronization, in scaled units
   double taken = 0;   // part of the loss since then that is no longer in the tally
 
-  double time() const;               // true
+  double time() const;               // true time
   double scaled(double time) const;  // `now` at this true time
 };
 

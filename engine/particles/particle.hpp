@@ -6,8 +6,8 @@
 // events the particle moves in a straight line, and its present position follows from the record.
 // Nothing else writes to a record, so a trajectory cannot depend on when it was read.
 //
-// Disks (d = 2) are spheres with z = 0 and v_z = 0: whatever is computed from a pair of disks has
-// the bits that x and y alone would give.
+// Disks (d = 2) are spheres with z = 0 and v_z = 0: a pair of disks gives the bits that x and y
+// alone would give.
 #pragma once
 
 #include <cstdint>

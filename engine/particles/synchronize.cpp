@@ -90,7 +90,7 @@ Tally take_tally(Clock& clock) {
 Vector wrapped(Vector position, const Box& box) {
   for (double& x : position) {
     x -= std::floor(x * box.inverse) * box.side;
-    if (x < 0) x += box.side;  // rounding can leave x a hair outside, on either side
+    if (x < 0) x += box.side;  // rounding can leave x slightly outside, on either side
     if (x >= box.side) x -= box.side;
   }
   return position;
@@ -125,7 +125,7 @@ void synchronize(std::span<Particle> particles, Clock& clock, const Box& box, co
   const double momentum = remove_momentum(particles, masses) * std::min(slowed, 1.0);
   clock.invariants.momentum_removed = std::max(clock.invariants.momentum_removed, momentum);
   sort_in_space(particles, box, team);
-  start(particles, clock, masses);  // sums in the new order, as a run that is resumed here would
+  start(particles, clock, masses);  // sums run in the new order, as in a run that is resumed here
 }
 
 template <class Masses>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Synchronization: brings all particles to one time, and puts back everything that grows.
+// Synchronization: brings all particles to one time, and resets all numbers that would grow.
 //
 // It happens at fixed collision numbers, whether or not the state is stored, so an interrupted run
 // continues bit for bit. It does four things, each of them deterministic:

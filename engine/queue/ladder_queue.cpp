@@ -21,10 +21,10 @@ template <std::size_t padded>
   for (std::size_t i = 0; i < padded; ++i) rank[i] = smaller[i];
 }
 
-// Integers only, so no bit depends on which of the two versions runs. The loader chooses one, which
-// that of glibc can; of the processors, only x86 has a default that is older than its vectors. The
-// loader chooses before the thread sanitizer is ready. (g++ says that this sanitizer is on; for
-// clang++ the preset tsan does.)
+// Two versions are compiled. They compute with integers only, so no bit depends on which one runs.
+// The loader chooses, which only that of glibc can; only on x86 is the default target older than
+// the processor's vectors. The loader chooses before the thread sanitizer is ready, so that there
+// is one version with that sanitizer. (g++ says that it is on; for clang++ the preset tsan does.)
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_THREAD__)
 [[gnu::target_clones("avx2", "default")]]
 #endif
@@ -84,7 +84,7 @@ void LadderQueueOf<Members>::add_beyond(std::uint32_t particle) {
   beyond_.push_back(particle);
 }
 
-// Makes room for so many more due entries.
+// Makes room for this many more due entries.
 template <class Members>
 void LadderQueueOf<Members>::make_room(std::size_t count) {
   if (due_.size() < end_ + count + 2) [[unlikely]]

@@ -24,8 +24,8 @@
 
 namespace haff::engine {
 
-// Which particles a queue holds: all of them, or those of one thread. An entry of a particle that
-// has gone to another thread's queue is dropped when it is met, and its event is not looked at.
+// The particles that a queue holds: all of them, or those of one thread. An entry of a particle
+// that has gone to another thread's queue is dropped when it is met, without a look at its event.
 struct AllParticles {
   static constexpr bool holds(const Event&) { return true; }
 };
@@ -76,7 +76,7 @@ class LadderQueueOf {
         int{entry.time < std::numeric_limits<double>::infinity()});  // not the end itself
   }
 
-  // Puts the particle that next() has just returned back.
+  // Puts back the particle that next() has just returned.
   void put_back() { --head_; }
 
   // The next particle to prefetch for: in the order of the events, each particle once, those whose
@@ -174,7 +174,7 @@ class LadderQueueOf {
   [[no_unique_address]] Members members_;
   HugeVector<Event> storage_;  // empty if the events are stored elsewhere
   Event* events_;              // by particle
-  std::uint32_t particles_;    // about so many of them are in this queue
+  std::uint32_t particles_;    // the approximate number in this queue
 
   unsigned window_bits_;
   double slots_per_time_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Which particles are near: linked cells of at least one diameter, eight of them in one cache line.
+// Finds the particles nearby: linked cells of at least one diameter, eight of them in one cache
+// line.
 //
 // A brick is 2 x 2 x 2 cells. Its particles are in the 16 slots of one 64-byte line, filled from
 // the front; a slot holds a particle number and, in three bits, the half of the brick along x, y
@@ -81,10 +82,10 @@ class Bricks {
 
   // Whether the box is large enough for four cells along an axis.
   static bool fits(const Box& box) { return box.side >= 4 * smallest_cell; }
-  // The number of cells along an axis, for so many particles.
+  // The number of cells along an axis, for this many particles.
   static std::uint32_t cells_along(const Box& box, std::uint32_t particles);
-  // With six cells along an axis, particles in neighbouring cells are less than half a box apart,
-  // so there is no doubt about the nearest image.
+  // Whether the nearest image is certain: with six cells along an axis, particles in neighbouring
+  // cells are less than half a box apart.
   bool tell_images_apart() const { return cells_ >= 6; }
 
   void clear() { clear_layers(0, layers_); }
@@ -92,7 +93,7 @@ class Bricks {
   Cell locate(const Vector& position) const;  // the cell of a wrapped position
   void insert(std::uint32_t particle, Cell cell);
 
-  // When and through which face the particle leaves its cell.
+  // The time at which the particle leaves its cell, and the face through which it does.
   template <int d = 3>
   Exit exit(const Particle& p, Cell cell, double now) const;
   // Moves the particle through that face; returns its new cell.
@@ -136,8 +137,8 @@ class Bricks {
     return near;
   }
 
-  // Of the bricks around a cell, in the order of around(): which of the eight cells of brick n are
-  // the same as the cell or next to it; bit h stands for the cell in half h of the brick.
+  // The cells of brick n around a cell, in the order of around(), that are the cell itself or next
+  // to it; bit h stands for the cell in half h of the brick.
   static std::uint8_t near_cells(std::size_t n, Cell cell) { return near_cells_[n][half_of(cell)]; }
 
   std::uint32_t brick_of(Cell cell) const {
@@ -218,7 +219,7 @@ class Bricks {
   }
 
   double side_;          // of the box
-  double inverse_;       // of that
+  double inverse_;       // of the side
   std::uint32_t cells_;  // along an axis, even
   double cell_side_;
   std::array<std::vector<Share>, 3> shares_;  // by axis and coordinate

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Which particle does a particle touch first? The plain search, one candidate after the other;
-// simd_search-inl.hpp is the fast one.
+// Finds the particle that a particle touches first. The plain search tests one candidate after the
+// other; simd_search-inl.hpp has the fast search.
 #pragma once
 
 #include <utility>
@@ -98,7 +98,8 @@ class PlainSearch {
   Contact around(std::uint32_t p, Cell cell, double now) const {
     return first_in(p, gas_.bricks.around<d>(cell), now);
   }
-  // Only among particles with higher numbers, for a particle whose record is of the present time.
+  // Searches only among particles with higher numbers, for a particle whose record is of the
+  // present time.
   Contact around_higher(std::uint32_t p, Cell cell) const {
     return first_in(p, gas_.bricks.around<d>(cell), gas_.particles[p].time, p + 1);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Which particle does a particle touch first? All candidates at once, without branches.
+// Finds the particle that a particle touches first: tests all candidates at once, without branches.
 //
 // The slots of a neighbourhood are filtered and compressed to a list of some 13 candidates. Their
 // records are loaded four at a time, transposed in registers to one vector per coordinate, and
@@ -51,8 +51,8 @@ class SimdSearch {
     return first_of<false>(p, count, list_.data(), now);
   }
 
-  // For both partners of a collision. Gathering the candidates of both before solving for either
-  // lets the processor overlap the two.
+  // Searches for both partners of a collision. Gathering the candidates of both before solving for
+  // either lets the processor overlap the two searches.
   HWY_INLINE std::pair<Contact, Contact> around_both(std::uint32_t p, Cell p_cell, std::uint32_t q,
                                                      Cell q_cell) {
     const std::size_t p_count = gather(p, around(p_cell), list_);
@@ -64,8 +64,8 @@ class SimdSearch {
   }
 
   HWY_INLINE void prefetch_bricks_around(Cell cell) const { prefetch_bricks(around(cell)); }
-  // For a particle that is about to leave a cell through a face: it will search beyond the same
-  // face of the next cell.
+  // Prefetches for a particle that is about to leave a cell through a face: it will search beyond
+  // the same face of the next cell.
   HWY_INLINE void prefetch_bricks_beyond(Cell cell, Face face) const {
     const Cell next = gas_.bricks.across(cell, face);
     prefetch_bricks(beyond(next, face));
@@ -100,7 +100,7 @@ class SimdSearch {
     // Not zero: 0 / 0 would be taken for a time.
     const V distance =
         hn::Max(hn::Add(hn::Set(d, 0.5 * bricks.cell_side()), ahead), hn::Set(d, 1e-300));
-    const V time = hn::Div(distance, hn::Abs(v));  // never, where it does not move
+    const V time = hn::Div(distance, hn::Abs(v));  // infinite where the particle does not move
     const V first = hn::MinOfLanes(d, time);
     std::uint8_t mask = 0;
     hn::StoreMaskBits(d, hn::Eq(time, first), &mask);
@@ -148,9 +148,8 @@ class SimdSearch {
 
   using List = std::vector<std::uint32_t>;
 
-  // Lists the wanted slots with the particle number alone; after the last one comes that of p
-  // itself (no particle touches itself), to fill a vector. `higher`: only particles with higher
-  // numbers.
+  // Lists the particle numbers of the wanted slots. After the last one comes p itself, which fills
+  // a vector (no particle touches itself). `higher`: only particles with higher numbers.
   template <bool higher = false, class Where>
   HWY_INLINE std::size_t gather(std::uint32_t p, const Where& where, List& list) {
     const auto wanted = where();
@@ -191,7 +190,7 @@ class SimdSearch {
     return count;
   }
 
-  // Writes the wanted ones of eight slots; returns their number.
+  // Writes those of eight slots that are wanted; returns their number.
   template <bool higher>
   HWY_INLINE std::size_t take_half(std::uint32_t p, const std::uint32_t* slot, std::uint32_t like,
                                    const Bricks::Care& care, std::uint32_t* to) const {
@@ -286,7 +285,7 @@ class SimdSearch {
     return {time, Bricks::particle_in(candidates[place[lane] + lane])};
   }
 
-  // The same, one candidate after the other: for two that touch at exactly the same time.
+  // The same, one candidate after the other, for two candidates with exactly the same time.
   HWY_NOINLINE Contact first_by_id(std::uint32_t p, std::size_t count,
                                    const std::uint32_t* candidates, double now) const {
     Contact best;
@@ -356,10 +355,11 @@ class SimdSearch {
 
   using Names = hn::RebindToUnsigned<Reals>;
 
-  // Of the candidates seen in each lane so far: the time of the first contact, and the place in the
-  // list of the vector that the partner was in; at first that after the last candidate, where p is.
-  // (To load the partner itself from the list takes longer: the list has just been written in other
-  // pieces, so the load has to wait until all that was written before has reached the cache.)
+  // For the candidates seen in each lane so far: the time of the first contact, and the place in
+  // the list of the vector that the partner was in; at first the place after the last candidate,
+  // where p is. (To load the partner itself from the list takes longer: the list has just been
+  // written in other pieces, so the load has to wait until all that was written before has reached
+  // the cache.)
   struct First {
     HWY_INLINE explicit First(std::size_t count)
         : time(hn::Set(Reals(), never)), place(hn::Set(Names(), count)), tie(hn::Zero(Reals())) {}

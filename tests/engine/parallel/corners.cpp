@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Where event-driven engines fail (tests/engine/corners.cpp), in gases that are divided among
-// threads: the same bits as on one thread, which is compared with the naive reference there.
+// The special cases of tests/engine/corners.cpp in gases that are divided among threads: they have
+// the same bits as on one thread, which is compared with the naive reference there.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -29,8 +29,8 @@ void check_same(const Simulation& one, const Simulation& several) {
   REQUIRE(several.invariants() == one.invariants());
 }
 
-// On one thread and on two to four slabs, with windows of random length and stops at random, and on
-// two real threads; so many collisions per particle.
+// Compares one thread with two to four slabs, with windows of random length and random stops, and
+// with two real threads, for `tau` collisions per particle.
 void agrees(const Model& model, const State& start, double tau) {
   const std::int64_t count = collisions_at(tau, start.particles());
   const std::int64_t last = start.collisions + count;
@@ -79,8 +79,8 @@ constexpr std::uint32_t particles = 16'000;
 // ---- at the same time -------------------------------------------------------------------------
 
 // All collisions of a round have the same time: within slabs, within zones, and across borders.
-// (Each of them is the first of all that are left: more of them would take long.)
-TEST_CASE("threads, corner: a lattice in which all collide at once") {
+// (Each collision is the first of all that are left, so that more of them would take long.)
+TEST_CASE("threads, corner: a lattice in which all particles collide at once") {
   constexpr int side = 14;
   for (const std::size_t axis : {std::size_t{0}, std::size_t{2}}) {
     CAPTURE(axis);
@@ -93,8 +93,8 @@ TEST_CASE("threads, corner: a lattice in which all collide at once") {
   }
 }
 
-// Rods of spheres that touch, along the axis on which the box is cut: all pass a blow on at the
-// moment in which they receive it, through every border.
+// Rods of spheres in contact, along the axis on which the box is cut: all spheres pass on a blow at
+// the moment at which they receive it, through every border.
 TEST_CASE("threads, corner: Newton's cradles through all borders") {
   constexpr int side = 12;
   constexpr int rod = 30;
@@ -102,17 +102,17 @@ TEST_CASE("threads, corner: Newton's cradles through all borders") {
   for (int x = 0; x < side; ++x)
     for (int y = 0; y < side; ++y)
       for (int z = 0; z < rod; ++z) {
-        // The first one of each rod comes from below the others.
+        // The first sphere of each rod comes from below the others.
         sites.push_back({3.0 * x, 3.0 * y, z == 0 ? 0.5 : 2.0 + z});
         velocities.push_back({0, 0, z == 0 ? 1.0 + 0.25 * (x % 3) : 0.0});
       }
   agrees({.restitution = 1}, state_of(3.0 * side, sites, velocities), 4);
 }
 
-// ---- contacts on the verge --------------------------------------------------------------------
+// ---- borderline contacts ----------------------------------------------------------------------
 
-// Pairs at contact to within roundings, in all directions, that part, rest or approach, and pairs
-// that graze: in every cell of slabs and zones.
+// Pairs at contact within rounding, in all directions, that separate, rest or approach, and grazing
+// pairs, in every cell of slabs and zones.
 TEST_CASE("threads, corner: pairs at contact and grazing pairs everywhere") {
   std::vector<Vector> positions, velocities;
   Random random(5, Stream::velocities);
@@ -136,7 +136,7 @@ TEST_CASE("threads, corner: pairs at contact and grazing pairs everywhere") {
 
 // ---- speeds -----------------------------------------------------------------------------------
 
-// In one window the fast ones cross slabs and zones, again and again.
+// In one window the fast particles cross slabs and zones again and again.
 TEST_CASE("threads, corner: speeds that differ by 1e8") {
   State state = initial_state(0.1, particles, 2);
   for (std::size_t k = 4; k < state.velocity.size(); ++k)
@@ -144,7 +144,7 @@ TEST_CASE("threads, corner: speeds that differ by 1e8") {
   agrees({.restitution = 0.9}, state, 1);
 }
 
-TEST_CASE("threads, corner: all but one are at rest") {
+TEST_CASE("threads, corner: all particles but one are at rest") {
   const std::vector<Vector> sites = cubic(16, 2);
   std::vector<Vector> velocities(sites.size());
   velocities[700] = {0.3, 0.1, 1};
@@ -153,7 +153,8 @@ TEST_CASE("threads, corner: all but one are at rest") {
 
 // ---- faces ------------------------------------------------------------------------------------
 
-TEST_CASE("threads, corner: particles on the faces of cells and slabs, crossing several at once") {
+TEST_CASE(
+    "threads, corner: particles on the faces of cells and slabs, which cross several at once") {
   // A box of 16.8 has 16 cells along an axis: all particles start on corners of cells, half of them
   // along a diagonal.
   constexpr int side = 16;

@@ -16,8 +16,8 @@
 using namespace haff::engine;
 using namespace haff::tests;
 
-// What is tested here is independent of how threads are scheduled, so one thread may work off all
-// slabs; real_threads.cpp has real threads.
+// These results do not depend on the scheduling of threads, so one thread may process all slabs;
+// real_threads.cpp has real threads.
 TEST_CASE("slabs: every effect, spheres and disks, in two to four slabs") {
   for_each_scene(1, all_scenes, [](const Scene& scene, const State& start) {
     std::vector<std::unique_ptr<Simulation>> divided;
@@ -50,27 +50,28 @@ TEST_CASE("slabs: every effect, spheres and disks, in two to four slabs") {
   });
 }
 
-TEST_CASE("threads: windows far too long are noticed, undone and repaired") {
+TEST_CASE("threads: windows that are much too long are undone and repaired") {
   for_each_scene(2, undone_scenes, [](const Scene& scene, const State& start) {
     for (const double window : {0.05, 0.3, 1.0}) {
       CAPTURE(window);
       Simulation one(scene.model, start);
       Simulation several(scene.model, start, SearchBackend::simd,
                          {.count = 1, .slabs = 4, .window = window});
-      // A few windows at a time: one that was left as it is would show at once.
+      // A few windows at a time, so that a wrong window would be seen at once.
       for (double tau = 2.5 * window; tau < 4; tau += 2.5 * window) {
         one.run_to(collisions_at(tau, scene.particles));
         several.run_to(collisions_at(tau, scene.particles));
         check_same(one, several);
         CHECK(several.take_tally() == one.take_tally());
       }
-      // Thin slabs and so many collisions: nearly every window has an event that came too early.
+      // With thin slabs and so many collisions, nearly every window has an event that came too
+      // early.
       CHECK(several.windows()->repaired > several.windows()->count / 2);
     }
   });
 }
 
-TEST_CASE("threads: a run may change their number wherever it is stored") {
+TEST_CASE("threads: a run may change their number at any stored state") {
   const State start = initial_state(0.4, 16'000, 3);
   const Model model{.restitution = 0.8};
   Simulation one(model, start);
@@ -90,8 +91,8 @@ TEST_CASE("threads: a box too small to be divided runs on one thread") {
   CHECK_FALSE(gas.windows());
 }
 
-TEST_CASE("threads: a collapse is the same one") {
-  // Cold, dense and very inelastic: it collapses within a few collisions per particle.
+TEST_CASE("threads: a collapse is the same as on one thread") {
+  // A dense, very inelastic gas collapses within a few collisions per particle.
   const State start = initial_state(0.6, 16'000, 1);
   const Model model{.restitution = 0.05};
   const auto collapse_of = [&](unsigned count) {

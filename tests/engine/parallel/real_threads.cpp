@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Two, three and four real threads: the bits of one, and no data race (ctest --preset tsan).
+// Two, three and four real threads give the bits of one, without data races (ctest --preset tsan).
 #include <doctest/doctest.h>
 
 #include "engine/initial.hpp"
@@ -10,7 +10,7 @@
 using namespace haff::engine;
 using namespace haff::tests;
 
-// Few collisions, since on a busy machine threads that wait for each other do so for long. Shuffled
+// The runs are short, since on a busy machine threads wait for each other for a long time. Shuffled
 // and heated gases are synchronized on the way.
 TEST_CASE("real threads: every effect, spheres and disks, on two to four") {
   for_each_scene(1, all_scenes, [](const Scene& scene, const State& start) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A gas that is divided into two, three and four slabs against the naive reference, bit by bit: the
-// smallest boxes that hold so many, windows of a few collisions, and stops at random. Disks, since
-// the reference would take a minute for as many spheres as fill two slabs; those are compared with
-// one thread (parallel_loop.cpp), which is compared with the reference.
+// A gas that is divided into two, three and four slabs against the naive reference, bit by bit, in
+// the smallest boxes that have room for them, with windows of a few collisions and random stops.
+// The gases are of disks, since the reference would take a minute for the spheres of two slabs;
+// spheres are compared with one thread (parallel_loop.cpp), which is compared with the reference.
 #include "support/reference.hpp"
 
 #include <doctest/doctest.h>
@@ -22,16 +22,15 @@ using namespace haff::engine;
 
 namespace {
 
-// One thread works off all slabs: what comes out does not depend on how threads are scheduled, and
-// threads that meet after every few collisions would take a minute.
+// One thread processes all slabs: the result does not depend on the scheduling of threads, and
+// threads that wait for each other after every few collisions would take a minute.
 template <class Physics>
 void agrees(Physics physics, const Model& model, const State& start, unsigned slabs, double tau) {
   CAPTURE(start.d);
   CAPTURE(start.particles());
   CAPTURE(slabs);
   Random random(start.particles(), Stream::velocities);
-  // Up to three collisions: in slabs as thin as these, longer ones nearly always have to be
-  // repaired.
+  // Up to three collisions: in such thin slabs, longer windows nearly always have to be repaired.
   const double window = (0.3 + 2.7 * random.uniform()) / start.particles();
   Simulation gas(model, start, SearchBackend::simd, {.count = 1, .slabs = slabs, .window = window});
   tests::ReferenceOf<Physics> reference(std::move(physics), model, start);
@@ -78,7 +77,7 @@ TEST_CASE("threads: disks on two, three and four slabs equal the reference") {
   }
 }
 
-TEST_CASE("threads: laws of restitution and a shuffle on slabs equal the reference") {
+TEST_CASE("threads: restitution laws and a shuffle on slabs equal the reference") {
   for (const RestitutionLaw& law :
        {RestitutionLaw{"threshold", {{"speed", 0.3}}}, RestitutionLaw{"tc", {{"t_c", 0.02}}},
         RestitutionLaw{"viscoelastic", {{"A", 0.3}}},

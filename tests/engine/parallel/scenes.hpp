@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Gases of every kind that several threads can divide, and what is compared.
+// Gases of every kind that several threads can divide, and the comparison of their states.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -67,7 +67,7 @@ inline const std::vector<std::string> all_scenes;
 // One of each kind of region: spheres, spheres with spins, disks.
 inline const std::vector<std::string> undone_scenes{"inelastic", "rough", "disks"};
 
-// Everything that can be seen of a gas at any time.
+// Compares all that can be observed of a gas at any time.
 inline void check_same(const engine::Simulation& one, const engine::Simulation& several) {
   REQUIRE(several.collisions() == one.collisions());
   CHECK(several.time() == one.time());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Slabs have equal shares of the work, to one layer of cells, and a gas as many threads as help.
+// Slabs have equal shares of the work, within one layer of cells, and a gas has as many threads as
+// are useful.
 #include "engine/parallel/slabs.hpp"
 
 #include <doctest/doctest.h>
@@ -33,7 +34,7 @@ TEST_CASE("slabs: a border may cut a layer of bricks in two") {
   for (const std::uint32_t layer : {14u, 15u, 16u, 28u, 29u, 0u})
     CHECK_FALSE(upper.workable().hold(at_height(layer)));
   for (const std::uint32_t layer : {17u, 27u}) CHECK(upper.workable().hold(at_height(layer)));
-  // Layers 14 and 15 are one brick, of which nobody is the owner.
+  // Layers 14 and 15 are one brick, which has no owner.
   CHECK_FALSE(upper.holds_brick_of(at_height(15)));
   CHECK(upper.holds_brick_of(at_height(16)));
   CHECK_FALSE(upper.holds_brick_next_to(at_height(16)));
@@ -64,7 +65,7 @@ TEST_CASE("slabs: useful threads") {
 }
 
 TEST_CASE(
-    "slabs: more threads are expected to be faster, as far as they are useful, never by more") {
+    "slabs: more threads are expected to be faster, up to the useful number and never by more") {
   CHECK(expected_speed_up(1, 500'000, 0.4) == 1);
   for (const std::uint32_t particles : {100'000u, 1'000'000u, 10'000'000u}) {
     double before = 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The events of one window come in the order of their times, whether they were taken at its begin
-// or added on the way, and outdated entries are dropped.
+// The events of one window come in the order of their times, whether they were taken at its
+// beginning or added on the way, and outdated entries are dropped.
 #include "engine/parallel/window_queue.hpp"
 
 #include <doctest/doctest.h>
@@ -35,7 +35,7 @@ TEST_CASE("window queue: the first event first, and of equal times the smallest 
   CHECK(next(queue) == WindowQueue::nothing);
 }
 
-TEST_CASE("window queue: an event that has got another time comes then, and only then") {
+TEST_CASE("window queue: an event with a new time comes at that time, and only then") {
   std::vector<Event> events(3);
   for (std::size_t p = 0; p < events.size(); ++p) events[p].time = 1 + static_cast<double>(p);
   WindowQueue queue(events.data());
@@ -57,7 +57,7 @@ TEST_CASE("window queue: it looks ahead at every event that is to come, once for
   std::vector<Event> events(particles);
   WindowQueue queue(events.data());
   for (std::uint32_t p = 0; p < particles; ++p) {
-    events[p].time = 1 + p / 2;  // of two, like the partners of a contact
+    events[p].time = 1 + p / 2;  // two particles each, like the partners of a contact
     queue.take(p);
   }
   queue.sort();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a synchronization checks and puts right, one thing at a time.
+// The checks and corrections of a synchronization, one at a time.
 #include "engine/particles/synchronize.hpp"
 
 #include <doctest/doctest.h>
@@ -36,13 +36,13 @@ TEST_CASE("synchronize: a wrapped position lies in the box, however near to a fa
   }
 }
 
-TEST_CASE("synchronize: energy that no collision took is found") {
+TEST_CASE("synchronize: a change of energy without a collision is found") {
   std::vector<Particle> particles = two_that_part();
   Clock clock;
   start(particles, clock);
   audit(particles, clock, 1);
   CHECK(clock.invariants.energy_mismatch == 0);
-  // A part in 10^9 of a velocity is a hundred times what is allowed, of the energy.
+  // A part in 10^9 of a velocity changes the energy by a hundred times the allowed amount.
   for (double& v : particles[0].velocity) v *= 1 + 1e-9;
   CHECK_THROWS_AS(audit(particles, clock, 1), PhysicsError);
   CHECK(clock.invariants.energy_mismatch > allowed_energy_mismatch);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The ladder queue: events come out in the order of their times, whatever happened to them since.
+// The ladder queue: events come out in the order of their times, even if their times were changed.
 #include "engine/queue/ladder_queue.hpp"
 
 #include <doctest/doctest.h>
@@ -27,7 +27,7 @@ void set(LadderQueue& queue, std::uint32_t particle, double time) {
 
 TEST_CASE("random events come out in order while others are put in") {
   constexpr std::uint32_t particles = 1000;
-  // Near, far beyond the last window, and with gaps of whole windows between.
+  // Times are near, far beyond the last window, or have gaps of whole windows between them.
   for (const double reach : {1e-3, 1.0, 1e4}) {
     CAPTURE(reach);
     Random random(7, Stream::velocities);
@@ -42,7 +42,7 @@ TEST_CASE("random events come out in order while others are put in") {
       REQUIRE(first == expected - times.begin());
       const double now = *expected;
       set(queue, first, times[first] = now + reach * random.uniform());
-      // Another is given a new time, earlier or later, and its old entry is void.
+      // Another particle is given a new time, earlier or later, and its old entry is outdated.
       const auto other = static_cast<std::uint32_t>(random.uniform() * particles);
       set(queue, other, times[other] = now + 0.1 * reach * random.uniform());
     }
@@ -61,7 +61,7 @@ TEST_CASE("events of the same time come out by rank") {
   CHECK(queue.next(by_number) == LadderQueue::nothing);
 }
 
-TEST_CASE("an event set again to the time it had comes out once") {
+TEST_CASE("an event that is set again to its old time comes out once") {
   LadderQueue queue(2);
   queue.restart(2);
   set(queue, 0, 0.25);

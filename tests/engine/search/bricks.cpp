@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Bricks: the 27 cells (of disks 9) around a cell, the nine beyond a face, crowded bricks, leaving
-// a cell.
+// Bricks: the 27 cells (9 for disks) around a cell, the nine beyond a face, crowded bricks, and how
+// a particle leaves a cell.
 #include "engine/search/bricks.hpp"
 
 #include <doctest/doctest.h>
@@ -12,7 +12,7 @@ using namespace haff::engine;
 
 namespace {
 
-const Box box(8.4);  // eight cells a side
+const Box box(8.4);  // eight cells along an axis
 
 template <std::size_t count>
 std::multiset<std::uint32_t> found(const Bricks& bricks, const Bricks::Wanted<count>& wanted) {
@@ -82,7 +82,7 @@ TEST_CASE("a brick holds any number of particles") {
     expected.insert(p);
   }
   CHECK(found(bricks, bricks.around(Cell{0})) == expected);
-  // All but one leave, from the line and from the overflow, through the lower x face.
+  // All particles but one leave, from the line and from the overflow, through the lower x face.
   for (std::uint32_t p = 0; p < 39; ++p) {
     CHECK(bricks.cross(p, Cell{0}, 0) == Cell{7});
     expected.erase(p);
@@ -90,7 +90,7 @@ TEST_CASE("a brick holds any number of particles") {
   }
 }
 
-TEST_CASE("a particle leaves through the face ahead, when it gets there") {
+TEST_CASE("a particle leaves through the face ahead, when it reaches it") {
   const Bricks bricks(box, 2000);
   const double cell = bricks.cell_side();
   Particle p{};
@@ -99,7 +99,7 @@ TEST_CASE("a particle leaves through the face ahead, when it gets there") {
   const Exit exit = bricks.exit(p, bricks.locate(p.position), 0);
   CHECK(exit.face == 0);
   CHECK(exit.time == doctest::Approx(0.25 * cell));
-  // Exactly on the face, and a hair beyond it: at once, never in the past.
+  // On the face, or slightly beyond it, the particle leaves at once, never in the past.
   CHECK(bricks.exit(p, Cell{0}, 0.25 * cell).time == doctest::Approx(0.25 * cell));
   CHECK(bricks.exit(p, Cell{0}, 0.26 * cell).time == 0.26 * cell);
 }
