@@ -94,7 +94,14 @@ class Curves {
     return this.quantities.find(({name}) => name === this.chosen.quantity);
   }
 
-  async show() {
+  // Reads what is chosen and shows it, one choice after the other: answers to an earlier choice must
+  // not replace those to a later one.
+  show() {
+    this.shown = (this.shown ?? Promise.resolve()).catch(() => {}).then(() => this.showChosen());
+    return this.shown;
+  }
+
+  async showChosen() {
     const quantity = this.quantity();
     if (!quantity) {
       byId("curve-choices").replaceChildren(make("p", {class: "quiet"},
@@ -115,6 +122,7 @@ class Curves {
     this.showChoices(quantity);
     this.showFilters();
     this.draw();
+    byId("curve-chart").dataset.quantity = quantity.name;
   }
 
   // [{d, e, ..., x, y, se, realizations}], a gas each.

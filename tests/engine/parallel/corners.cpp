@@ -89,7 +89,7 @@ TEST_CASE("threads, corner: a lattice in which all particles collide at once") {
     for (std::size_t k = 0; k < sites.size(); ++k)
       velocities[k][axis] = static_cast<int>(sites[k][axis] / 2) % 2 == 0 ? 1.0 : -1.0;
     for (const double e : {1.0, 0.5})
-      agrees({.restitution = e}, state_of(2.0 * side, sites, velocities), 4);
+      agrees({.restitution = e}, state_of(2.0 * side, sites, velocities), 3);
   }
 }
 

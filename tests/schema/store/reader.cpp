@@ -18,10 +18,11 @@ struct Vandal {
   TemporaryFolder folder;
   Store store = Store::create(folder / "a.db");
   SQLite::Database sqlite{(folder / "a.db").string(), SQLite::OPEN_READWRITE};
-  Checkpoint checkpoint{.tau = 30, .collisions = 15000, .state = bytes(chunk_bytes + 1000, 7)};
+  Checkpoint checkpoint;
   std::int64_t job_id = 0;
 
-  Vandal() {
+  explicit Vandal(std::size_t state = chunk_bytes + 1000)
+      : checkpoint{.tau = 30, .collisions = 15000, .state = bytes(state, 7)} {
     store.add(plan({cooling()}));
     const Claim claim = *store.claim(me, "test");
     job_id = claim.lease.job_id;
@@ -152,7 +153,7 @@ TEST_CASE(
     "values that this program does not write in a row of jobs are damage, and the column is "
     "named") {
   const auto complaint = [](const std::string& change) {
-    Vandal vandal;
+    Vandal vandal(1000);
     vandal.sqlite.exec("PRAGMA ignore_check_constraints = ON");
     vandal.sqlite.exec("UPDATE jobs SET " + change);
     try {
