@@ -26,6 +26,7 @@ constexpr double plateau_from = 15, plateau_until = 35;
 
 std::vector<double> times(double end) {
   std::vector<double> tau;
+  tau.reserve(20 + static_cast<std::size_t>(end));
   for (int half = 0; half < 20; ++half) tau.push_back(0.5 * half);
   for (double whole = 10; whole <= end; ++whole) tau.push_back(whole);
   return tau;
