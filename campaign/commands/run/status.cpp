@@ -94,7 +94,8 @@ std::string failures_text(const Overview& overview) {
 
 std::string invariants_text(const schema::Invariants& worst) {
   return fmt::format(
-      "Physics: overlap at most {:.1e} sigma, {} events in the past, {} watchdog trips, energy "
+      "Physics: overlap at most {:.1e} sigma, {} events in the past, {} unresolved collisions, "
+      "energy "
       "balanced to {:.1e}, momentum to {:.1e}\n",
       worst.largest_overlap, worst.past_events, worst.unresolved_collisions, worst.energy_mismatch,
       worst.momentum_removed);

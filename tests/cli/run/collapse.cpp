@@ -40,7 +40,7 @@ TEST_CASE("collapse: it ends a job, which keeps its series and does not count as
                "WHERE status = 'collapsed'") == 3);
   const Outcome status = campaign(folder, {"status"});
   CHECK(status.out.find("collapsed: inelastic collapse of particles") != std::string::npos);
-  CHECK(status.out.find("watchdog trips") != std::string::npos);
+  CHECK(status.out.find("unresolved collisions") != std::string::npos);
   CHECK(campaign(folder, {"verify"}).exit_code == 0);
   // The job is neither done nor failed: it is neither retried nor run.
   campaign(folder, {"retry"});
